@@ -1,0 +1,65 @@
+#pragma once
+/// The interface of every reflectance model and measured table.
+///
+/// Directions are unit vectors in the local frame (z = surface normal) and point away from the surface. wo is given, wi
+/// is sampled. eval is f_r in 1/sr without the cosine; pdf is per solid angle of wi; weight includes the cosine.
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+namespace sklar::brdf {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Rgb = Eigen::Array3d;
+using Directions = Eigen::ArrayX3d;                       ///< n x 3, unit rows
+using DirectionsRef = Eigen::Ref<const Eigen::ArrayX3d>;  ///< read-only view
+using RgbRows = Eigen::ArrayX3d;                          ///< n x 3, red green blue
+
+/// What a model claims of itself; the conformance suite tests each claim.
+struct Traits {
+  bool reciprocal = true;     ///< eval(wo, wi) and eval(wi, wo) agree to the last bit
+  bool isotropic = true;      ///< eval does not change when both directions turn about z
+  double albedo_bound = 0.0;  ///< upper bound of the directional albedo, 0 = no claim
+};
+
+struct Sample {
+  Vec3 wi;
+  double pdf;  ///< per solid angle
+  Rgb weight;  ///< f_r cos(theta_i) / pdf; 0 for a draw below the horizon
+};
+
+/// Immutable and thread-safe; single calls do not allocate.
+class Brdf {
+ public:
+  virtual ~Brdf() = default;
+
+  /// f_r(wi, wo) in 1/sr per channel, 0 when either direction is below the horizon (z <= 0). Never negative, never NaN.
+  [[nodiscard]] virtual Rgb eval(const Vec3& wo, const Vec3& wi) const = 0;
+
+  /// Row by row the same numbers as the single call. @param wo, wi n x 3. @return n x 3.
+  /// @throws std::invalid_argument if the row counts differ.
+  [[nodiscard]] RgbRows eval(const DirectionsRef& wo, const DirectionsRef& wi) const;
+
+  /// Density per solid angle of wi given wo, as drawn by sample; 0 below the horizon. Default: cosine hemisphere.
+  [[nodiscard]] virtual double pdf(const Vec3& wo, const Vec3& wi) const;
+
+  /// One draw of wi given wo from two uniforms in (0,1). The weight f cos / pdf is computed here and nowhere else.
+  [[nodiscard]] Sample sample(const Vec3& wo, const Vec2& uniforms) const;
+
+  [[nodiscard]] virtual Traits traits() const = 0;
+
+  /// Size in bytes of everything evaluation needs.
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+
+ protected:
+  virtual void eval_batch(const DirectionsRef& wo, const DirectionsRef& wi, Eigen::Ref<RgbRows> out) const;
+
+  /// The direction drawn by sample. Default: cosine hemisphere.
+  [[nodiscard]] virtual Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const;
+};
+
+using BrdfPtr = std::shared_ptr<const Brdf>;
+
+}  // namespace sklar::brdf

@@ -1,0 +1,20 @@
+# sklar_library(NAME): a library target sklar_NAME, exported as sklar::NAME, with the project's warnings and language level.
+include(GNUInstallDirs)
+
+function(sklar_compile_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # -Wno-restrict: GCC 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105651).
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                           $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${SKLAR_WERROR}>:-Werror>)
+endfunction()
+
+function(sklar_library name)
+  add_library(sklar_${name} ${ARGN})
+  add_library(sklar::${name} ALIAS sklar_${name})
+  set_target_properties(sklar_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  sklar_compile_settings(sklar_${name})
+  target_include_directories(sklar_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                  $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+                                                  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sklar>)
+endfunction()

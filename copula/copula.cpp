@@ -1,0 +1,106 @@
+#include "copula/copula.hpp"
+
+#include "copula/error.hpp"
+
+namespace sklar {
+
+namespace {
+
+void require_points(const char* function, const PointsRef& u, Index lowest, Index highest) {
+  require_columns(function, "u", u.cols(), lowest, highest);
+  require_unit_cube(function, "u", u);
+}
+
+}  // namespace
+
+Copula::Copula(int dim) : dim_(dim) {
+  if (dim < 2) throw std::invalid_argument("a copula needs dimension 2 or more, got " + std::to_string(dim));
+}
+
+Column Copula::log_pdf(const PointsRef& u) const {
+  require_points("log_pdf", u, dim_, dim_);
+  Column out(u.rows());
+  log_pdf_into(u, out);
+  return out;
+}
+
+Column Copula::pdf(const PointsRef& u) const {
+  return log_pdf(u).exp();
+}
+
+Column Copula::log_cdf(const PointsRef& u) const {
+  require_points("log_cdf", u, dim_, dim_);
+  Column out(u.rows());
+  log_cdf_into(u, out);
+  return out;
+}
+
+Column Copula::cdf(const PointsRef& u) const {
+  return log_cdf(u).exp();
+}
+
+Column Copula::h(const PointsRef& u) const {
+  require_points("h", u, 1, dim_);
+  Column out(u.rows());
+  conditional_into(u, Tail::lower, out);
+  return out;
+}
+
+Column Copula::h_upper(const PointsRef& u) const {
+  require_points("h_upper", u, 1, dim_);
+  Column out(u.rows());
+  conditional_into(u, Tail::upper, out);
+  return out;
+}
+
+Column Copula::h_inv(const PointsRef& u) const {
+  require_points("h_inv", u, 1, dim_);
+  Column out(u.rows());
+  conditional_inverse_into(u, Tail::lower, out);
+  return out;
+}
+
+Column Copula::h_inv_upper(const PointsRef& u) const {
+  require_points("h_inv_upper", u, 1, dim_);
+  Column out(u.rows());
+  conditional_inverse_into(u, Tail::upper, out);
+  return out;
+}
+
+Points Copula::rosenblatt(const PointsRef& u) const {
+  require_points("rosenblatt", u, dim_, dim_);
+  Points w(u.rows(), dim_);
+  for (int k = 0; k < dim_; ++k) conditional_into(u.leftCols(k + 1), Tail::lower, w.col(k));
+  return w;
+}
+
+Points Copula::inverse_rosenblatt(const PointsRef& w, const PointsRef& given) const {
+  const Index fixed = given.cols();
+  require_columns("inverse_rosenblatt", "given", fixed, 0, dim_ - 1);
+  require_columns("inverse_rosenblatt", "w", w.cols(), dim_ - fixed, dim_ - fixed);
+  if (given.rows() != 1) require_rows("inverse_rosenblatt", "given", given.rows(), w.rows());
+  require_unit_cube("inverse_rosenblatt", "given", given);
+  require_unit_cube("inverse_rosenblatt", "w", w);
+  Points u(w.rows(), dim_);
+  if (given.rows() == 1) {
+    u.leftCols(fixed) = given.replicate(w.rows(), 1);
+  } else {
+    u.leftCols(fixed) = given;
+  }
+  u.rightCols(dim_ - fixed) = w;
+  Column next(w.rows());
+  for (Index k = fixed; k < dim_; ++k) {
+    conditional_inverse_into(u.leftCols(k + 1), Tail::lower, next);
+    u.col(k) = next;
+  }
+  return u;
+}
+
+Points Copula::sample(Index n, Rng& rng, const PointsRef& given) const {
+  if (n < 1) throw std::invalid_argument("sample: n must be 1 or more, got " + std::to_string(n));
+  require_rows("sample", "given", given.rows(), 1);
+  require_columns("sample", "given", given.cols(), 0, dim_ - 1);
+  return inverse_rosenblatt(uniforms(rng, n, dim_ - given.cols()), given);
+}
+
+}  // namespace sklar

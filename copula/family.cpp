@@ -1,0 +1,58 @@
+#include "copula/family.hpp"
+
+#include <cmath>
+
+#include "copula/error.hpp"
+
+namespace sklar {
+
+bool Interval::contains(double value) const noexcept {
+  const bool above = value > lowest || (lowest_included && value == lowest);
+  const bool below = value < highest || (highest_included && value == highest);
+  return above && below && std::isfinite(value);
+}
+
+std::string Interval::to_text() const {
+  return (lowest_included && std::isfinite(lowest) ? "[" : "(") + sklar::to_text(lowest) + ", " +
+         sklar::to_text(highest) + (highest_included && std::isfinite(highest) ? "]" : ")");
+}
+
+void FamilyInfo::require_admissible(int dim, const Theta& theta) const {
+  if (dim < 2) throw std::invalid_argument(name + ": dimension must be 2 or more, got " + std::to_string(dim));
+  if (theta.size() != parameters.size()) {
+    throw std::invalid_argument(name + ": takes " + std::to_string(parameters.size()) + " parameters, got " +
+                                std::to_string(theta.size()));
+  }
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const Interval domain = parameters[i].domain(dim);
+    if (!domain.contains(theta[i])) {
+      throw std::domain_error(name + ": " + parameters[i].name + " must be in " + domain.to_text() + " in dimension " +
+                              std::to_string(dim) + ", got " + sklar::to_text(theta[i]));
+    }
+  }
+}
+
+CopulaPtr FamilyInfo::make(int dim, const Theta& theta) const {
+  require_admissible(dim, theta);
+  return make_unchecked(dim, theta);
+}
+
+Interval FamilyInfo::tau_range(int dim) const {
+  const Interval domain = parameters.at(0).domain(dim);
+  return {tau({domain.lowest}), tau({domain.highest}), domain.lowest_included && std::isfinite(domain.lowest),
+          domain.highest_included && std::isfinite(domain.highest)};
+}
+
+Theta FamilyInfo::from_tau(int dim, double value) const {
+  if (parameters.size() != 1 || !theta_from_tau) {
+    throw std::invalid_argument(name + ": has no inverse of Kendall's tau; give theta");
+  }
+  const Interval range = tau_range(dim);
+  if (!range.contains(value)) {
+    throw std::domain_error(name + ": tau must be in " + range.to_text() + " in dimension " + std::to_string(dim) +
+                            ", got " + sklar::to_text(value));
+  }
+  return theta_from_tau(value);
+}
+
+}  // namespace sklar

@@ -1,0 +1,46 @@
+#pragma once
+/// Independence copula: C(u) = prod u_i, psi(t) = exp(-t), no parameter, any dimension, tau = 0, no tail dependence.
+/// Nelsen, An Introduction to Copulas (2006), eq. 2.2.7 and p. 116.
+
+#include "copula/family.hpp"
+
+namespace sklar::families::independence {
+
+class Independence final : public Copula {
+ public:
+  explicit Independence(int dim) : Copula(dim) {}
+
+ private:
+  void log_pdf_into(const PointsRef& u, ColumnOut out) const override { out = u.rowwise().sum() * 0.0; }
+  void log_cdf_into(const PointsRef& u, ColumnOut out) const override { out = u.log().rowwise().sum(); }
+  void conditional_into(const PointsRef& u, Tail tail, ColumnOut out) const override { last_column(u, tail, out); }
+  void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
+    last_column(u, tail, out);
+  }
+
+  // A NaN among the given coordinates reaches the answer.
+  static void last_column(const PointsRef& u, Tail tail, ColumnOut out) {
+    const auto last = u.col(u.cols() - 1);
+    out = u.rowwise().sum() * 0.0 + (tail == Tail::lower ? Column(last) : Column(1.0 - last));
+  }
+};
+
+inline FamilyInfo info() {
+  return {
+      .name = "independence",
+      .title = "Independence",
+      .psi = "exp(-t)",
+      .source = "Nelsen 2006, eq. 2.2.7",
+      .parameters = {},
+      .examples = {Theta{}},
+      .make_unchecked = [](int dim, const Theta&) -> CopulaPtr { return std::make_shared<Independence>(dim); },
+      .tau = [](const Theta&) { return 0.0; },
+      .theta_from_tau = {},
+      .tails =
+          [](const Theta&) {
+            return TailDependence{0.0, 0.0};
+          },
+  };
+}
+
+}  // namespace sklar::families::independence
