@@ -1,0 +1,59 @@
+#include "copula/file.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "copula/error.hpp"
+
+namespace sklar {
+namespace fs = std::filesystem;
+namespace {
+
+bool put(const fs::path& path, std::string_view bytes) {
+  errno = 0;
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  return static_cast<bool>(out);
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::error_code& reason) {
+  throw FileError(path.string(), "cannot be written: " + reason.message());
+}
+
+fs::path sibling(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  fs::path part = target;
+  part += "." + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+  return part;
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  std::error_code error;
+  const bool present = fs::exists(path, error);
+  if (present && !fs::is_regular_file(path)) {
+    if (fs::is_directory(path)) fail(path, std::make_error_code(std::errc::is_a_directory));
+    if (!put(path, bytes)) fail(path, {errno, std::generic_category()});
+    return;
+  }
+  const fs::path target = present ? fs::canonical(path) : path;
+  const fs::path part = sibling(target);
+  if (!put(part, bytes)) {
+    error = {errno != 0 ? errno : EIO, std::generic_category()};
+  } else {
+    fs::rename(part, target, error);
+  }
+  if (!error) return;
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  fail(path, error);
+}
+
+}  // namespace sklar

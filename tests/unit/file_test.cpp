@@ -1,0 +1,64 @@
+#include "copula/file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "copula/error.hpp"
+
+namespace sklar {
+namespace {
+namespace fs = std::filesystem;
+
+class File : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("sklar_file_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()) +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string content(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  [[nodiscard]] auto files() const { return std::distance(fs::directory_iterator(folder_), {}); }
+
+  fs::path folder_;
+};
+
+TEST_F(File, IsWrittenWholeAndReplaced) {
+  const std::string first("a\0b\n", 4);
+  write_file(folder_ / "x", first);
+  EXPECT_EQ(content(folder_ / "x"), first);
+  write_file(folder_ / "x", "second");
+  EXPECT_EQ(content(folder_ / "x"), "second");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(File, LinkKeepsPointingAtTheWrittenFile) {
+  write_file(folder_ / "x", "old");
+  fs::create_symlink(folder_ / "x", folder_ / "link");
+  write_file(folder_ / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(content(folder_ / "x"), "new");
+}
+
+TEST_F(File, FailureNamesThePathAndLeavesNothing) {
+  for (const fs::path& path : {folder_ / "missing" / "x", folder_}) {
+    try {
+      write_file(path, "bytes");
+      FAIL() << path << " was written";
+    } catch (const FileError& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(path.string() + ": cannot be written: ", 0), 0u) << error.what();
+    }
+  }
+  EXPECT_EQ(files(), 0);
+}
+
+}  // namespace
+}  // namespace sklar
