@@ -5,8 +5,9 @@
 #include <atomic>
 #include <cerrno>
 #include <fstream>
-#include <string>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "copula/error.hpp"
 
@@ -34,6 +35,22 @@ fs::path sibling(const fs::path& target) {
 }
 
 }  // namespace
+
+std::string read_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) throw FileError(path.string(), "no such file");
+  if (fs::is_directory(status)) throw FileError(path.string(), "is a directory, not a file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  if (in.peek() != std::ifstream::traits_type::eof()) bytes << in.rdbuf();
+  if (!in.is_open() || in.bad() || !bytes) {
+    error = {errno != 0 ? errno : EIO, std::generic_category()};
+    throw FileError(path.string(), "cannot be read: " + error.message());
+  }
+  return std::move(bytes).str();
+}
 
 void write_file(const fs::path& path, std::string_view bytes) {
   std::error_code error;

@@ -1,10 +1,14 @@
 #pragma once
-/// Whole files, written all or not at all.
+/// Whole files: read at once, written all or not at all.
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace sklar {
+
+/// The bytes of a file. @throws FileError naming the path: missing, a directory, or the system's reason.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 /// Writes bytes beside the target and renames, so that a reader sees the old file or the new one and a failure leaves
 /// nothing behind. A target that exists and is not a regular file (a terminal, a pipe) is written to directly.

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "copula/error.hpp"
 
@@ -46,6 +47,25 @@ TEST_F(File, LinkKeepsPointingAtTheWrittenFile) {
   write_file(folder_ / "link", "new");
   EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
   EXPECT_EQ(content(folder_ / "x"), "new");
+}
+
+TEST_F(File, IsReadAsWritten) {
+  for (const std::string& bytes : {std::string("a\0b\r\n", 5), std::string()}) {
+    write_file(folder_ / "x", bytes);
+    EXPECT_EQ(read_file(folder_ / "x"), bytes);
+  }
+}
+
+TEST_F(File, ThatCannotBeReadIsNamed) {
+  for (const auto& [path, reason] : {std::pair{folder_ / "missing", std::string("no such file")},
+                                     std::pair{folder_, std::string("is a directory, not a file")}}) {
+    try {
+      (void)read_file(path);
+      FAIL() << path << " was read";
+    } catch (const FileError& error) {
+      EXPECT_EQ(error.what(), path.string() + ": " + reason);
+    }
+  }
 }
 
 TEST_F(File, FailureNamesThePathAndLeavesNothing) {
