@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "brdf/brdf.hpp"
@@ -44,5 +45,15 @@ struct MeasuredTable {
 
   [[nodiscard]] std::size_t valid_cells() const;
 };
+
+/// Middle of the values in order (the upper one of two), 0 for none.
+[[nodiscard]] double median(std::vector<double> values);
+
+/// ImportReport::mirror_asymmetry of a table: channels summed, over pairs of valid cells that are not both black.
+[[nodiscard]] double mirror_asymmetry(const MeasuredTable& table);
+
+/// @throws std::invalid_argument unless planes and mask have Grid::cells entries, every value is finite and >= 0, and
+/// some cell is valid.
+void require_table(std::string_view function, const MeasuredTable& table);
 
 }  // namespace sklar::brdf
