@@ -8,28 +8,19 @@
 #include <utility>
 
 #include "copula/error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace sklar {
 namespace {
 namespace fs = std::filesystem;
 
-class File : public testing::Test {
+class File : public test::TemporaryFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("sklar_file_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()) +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static std::string content(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
   [[nodiscard]] auto files() const { return std::distance(fs::directory_iterator(folder_), {}); }
-
-  fs::path folder_;
 };
 
 TEST_F(File, IsWrittenWholeAndReplaced) {
