@@ -1,0 +1,130 @@
+#pragma once
+/// A real number with a running bound of its absolute error: every operation adds its own rounding error and carries on
+/// those of its operands (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., sec. 3.3). Formulas are
+/// written once as templates over the number type; a caller accepts a result in double when its bound is small enough
+/// and repeats the same formula in a wider type where it is not.
+
+#include <cmath>
+#include <limits>
+
+namespace sklar {
+
+template <class Real>
+struct Bounded {
+  Real value;
+  Real error;  ///< |value - exact| <= error; inf where nothing is known
+
+  Bounded() : value(0), error(0) {}
+  Bounded(double exact) : value(exact), error(0) {}  // NOLINT: converts exactly
+  Bounded(int exact) : value(exact), error(0) {}     // NOLINT: converts exactly
+  Bounded(const Real& v, const Real& e) : value(v), error(e) {}
+
+  /// Relative error of one arithmetic operation, doubled so that the rounding of the bounds themselves is covered.
+  static Real operation() { return std::numeric_limits<Real>::epsilon(); }
+  /// Relative error of exp, log, expm1, log1p and sqrt; glibc documents at most 1 ulp for them in double.
+  static Real function() { return Real(2) * std::numeric_limits<Real>::epsilon(); }
+  /// Absolute error of an operation whose result may be subnormal.
+  static Real underflow() { return (std::numeric_limits<Real>::min)(); }
+  static Real unknown() { return std::numeric_limits<Real>::infinity(); }
+
+  Bounded& operator+=(const Bounded& b) { return *this = *this + b; }
+  Bounded& operator-=(const Bounded& b) { return *this = *this - b; }
+  Bounded& operator*=(const Bounded& b) { return *this = *this * b; }
+  Bounded& operator/=(const Bounded& b) { return *this = *this / b; }
+
+  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.error}; }
+
+  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+    using std::abs, std::isfinite;
+    const Real v = a.value + b.value;
+    if (!isfinite(v)) return infinite_result(v, a, b);
+    return {v, Real(a.error + b.error + operation() * abs(v))};
+  }
+  friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
+
+  friend Bounded operator*(const Bounded& a, const Bounded& b) {
+    using std::abs, std::isfinite;
+    const Real v = a.value * b.value;
+    if (!isfinite(v)) return nonzero(a) && nonzero(b) ? infinite_result(v, a, b) : Bounded(v, unknown());
+    return {v, Real(abs(a.value) * b.error + (abs(b.value) + b.error) * a.error + operation() * abs(v) + underflow())};
+  }
+
+  friend Bounded operator/(const Bounded& a, const Bounded& b) {
+    using std::abs, std::isfinite;
+    const Real v = a.value / b.value;
+    const Real divisor = abs(b.value) - b.error;
+    if (!isfinite(v)) return infinite_result(v, a, b);
+    if (!(divisor > 0)) return {v, unknown()};
+    return {v, Real((a.error + abs(v) * b.error) / divisor + operation() * abs(v) + underflow())};
+  }
+
+  friend bool operator<(const Bounded& a, const Bounded& b) { return a.value < b.value; }
+  friend bool operator>(const Bounded& a, const Bounded& b) { return a.value > b.value; }
+  friend bool operator<=(const Bounded& a, const Bounded& b) { return a.value <= b.value; }
+  friend bool operator>=(const Bounded& a, const Bounded& b) { return a.value >= b.value; }
+
+  friend Bounded abs(const Bounded& a) { return a.value < 0 ? -a : a; }
+
+  friend Bounded exp(const Bounded& a) {
+    using std::exp, std::isfinite;
+    const Real v = exp(a.value);
+    if (!isfinite(v) || !isfinite(a.value)) return {v, isfinite(a.value) ? unknown() : a.error};
+    return {v, Real(v * growth(a.error) + function() * v + (a.value < -700 ? underflow() : Real(0)))};
+  }
+
+  friend Bounded expm1(const Bounded& a) {
+    using std::abs, std::expm1, std::isfinite;
+    const Real v = expm1(a.value);
+    if (!isfinite(v) || !isfinite(a.value)) return {v, isfinite(a.value) ? unknown() : a.error};
+    return {v, Real((v + 1) * growth(a.error) + function() * abs(v))};
+  }
+
+  friend Bounded log(const Bounded& a) {
+    using std::log;
+    return logarithm(log(a.value), a.value, a.error);
+  }
+
+  friend Bounded log1p(const Bounded& a) {
+    using std::log1p;
+    return logarithm(log1p(a.value), Real(1 + a.value), a.error);
+  }
+
+  friend Bounded sqrt(const Bounded& a) {
+    using std::sqrt;
+    const Real v = sqrt(a.value);
+    if (a.error == 0) return {v, Real(operation() * v)};
+    if (!(a.value > a.error)) return {v, unknown()};
+    return {v, Real(a.error / sqrt(Real(a.value - a.error)) + operation() * v)};
+  }
+
+ private:
+  // e^x - 1 for the error x >= 0 of an exponent.
+  static Real growth(const Real& x) {
+    using std::expm1;
+    return x < Real(0.125) ? Real(x * (1 + x)) : Real(expm1(x));
+  }
+
+  // An infinite result is exact where an exact infinity met a known operand; a finite operation that overflows is
+  // unknown.
+  static Bounded infinite_result(const Real& v, const Bounded& a, const Bounded& b) {
+    using std::isfinite, std::isinf;
+    const auto exact = [](const Bounded& x) { return isinf(x.value) && x.error == 0; };
+    const bool known = isfinite(a.error) && isfinite(b.error) && (exact(a) || exact(b));
+    return {v, isinf(v) && known ? Real(0) : unknown()};
+  }
+
+  // In a product the other operand must not be 0.
+  static bool nonzero(const Bounded& x) {
+    using std::abs;
+    return abs(x.value) > x.error;
+  }
+
+  static Bounded logarithm(const Real& v, const Real& argument, const Real& error) {
+    using std::abs, std::isfinite;
+    if (error == 0) return {v, isfinite(v) ? Real(function() * abs(v)) : Real(0)};
+    if (!(argument > error)) return {v, unknown()};
+    return {v, Real(error / (argument - error) + function() * abs(v))};
+  }
+};
+
+}  // namespace sklar

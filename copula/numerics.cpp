@@ -1,0 +1,49 @@
+#include "copula/numerics.hpp"
+
+#include <boost/math/special_functions/bernoulli.hpp>
+#include <numbers>
+
+namespace sklar {
+
+namespace {
+
+// int_0^x t / (e^t - 1) dt for x >= 2 (A&S 27.1.2); terms fall like e^(-k x).
+double debye_integral_from_above(double x) {
+  double sum = std::numbers::pi * std::numbers::pi / 6;
+  for (int k = 1; k <= 24; ++k) sum -= std::exp(-k * x) * (x / k + 1.0 / (k * k));
+  return sum;
+}
+
+}  // namespace
+
+double debye_1_defect(double x) {
+  if (x < 0) return -debye_1_defect(-x);
+  if (x >= 2) return 0.25 - (1 - debye_integral_from_above(x) / x) / x;
+  // A&S 27.1.1: D_1(x) = 1 - x/4 + sum_n B_2n x^2n / ((2n+1) (2n)!), |x| < 2 pi.
+  double sum = 0, power = x / 2;
+  for (int n = 1; n <= 20; ++n) {
+    sum += boost::math::bernoulli_b2n<double>(n) * power / (2 * n + 1);
+    power *= x * x / ((2 * n + 1.0) * (2 * n + 2.0));
+  }
+  return sum;
+}
+
+double eulerian_root(int n) {
+  // Newton from 0, right of every root, rises monotonically to the largest one. The polynomial is divided by n!.
+  const Triangle<EulerianRule> table(n + 1, {});
+  const auto coefficients = table.row<Bounded<double>>(n);
+  double x = 0;
+  for (int step = 0; step < 200; ++step) {
+    double value = 0, slope = 0;
+    for (std::size_t k = coefficients.size(); k-- > 0;) {
+      slope = slope * x + value;
+      value = value * x + coefficients[k].value;
+    }
+    const double next = x - value / slope;
+    if (!(next < x)) break;
+    x = next;
+  }
+  return x;
+}
+
+}  // namespace sklar

@@ -1,0 +1,166 @@
+#pragma once
+/// Cancellation-free building blocks, templates over the number type T (Bounded<double> or Bounded<Wide>).
+
+#include <cmath>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "copula/bounded.hpp"
+#include "copula/wide.hpp"
+
+namespace sklar {
+
+/// log(1 - e^-x), x > 0. Branch at log 2: Maechler (2012), "Accurately computing log(1 - exp(-|a|))", eq. 7.
+template <class T>
+[[nodiscard]] T log1mexp(const T& x) {
+  return x < T(0.6931471805599453) ? log(-expm1(-x)) : log1p(-exp(-x));
+}
+
+/// log(e^x - 1), x > 0. From x = 30 on e^x would overflow before the answer does.
+template <class T>
+[[nodiscard]] T log_expm1(const T& x) {
+  return x < T(30) ? log(expm1(x)) : x + log1p(-exp(-x));
+}
+
+/// log(e^a + e^b).
+template <class T>
+[[nodiscard]] T log_add_exp(const T& a, const T& b) {
+  return a < b ? b + log1p(exp(a - b)) : a + log1p(exp(b - a));
+}
+
+/// log(u / v) for u, v > 0, with small relative error where u is near v (u - v is exact there) and no overflow.
+template <class T>
+[[nodiscard]] T log_ratio(double u, double v) {
+  if (u > 0.5 * v && u < 2.0 * v) return log1p((T(u) - T(v)) / T(v));
+  return log(T(u)) - log(T(v));
+}
+
+/// log(1 + x) - x, x > -1, by the series of 2 atanh(x / (2 + x)) near 0, where the two terms cancel.
+template <class T>
+[[nodiscard]] T log1p_minus_x(const T& x) {
+  if (abs(x) > T(0.25)) return log1p(x) - x;
+  const T r = x / (T(2) + x);
+  const T square = r * r;
+  T power = r * square;
+  T sum = -x * r;
+  for (double n = 3;; n += 2) {
+    const T term = T(2) * power / T(n);
+    sum += term;
+    if (!(abs(term).value > T::operation() * abs(sum).value)) return sum;
+    power *= square;
+  }
+}
+
+/// e^x - 1 - x, by its series near 0, where the terms cancel.
+template <class T>
+[[nodiscard]] T expm1_minus_x(const T& x) {
+  if (abs(x) > T(0.5)) return expm1(x) - x;
+  T term = x * x / T(2);
+  T sum = term;
+  for (double n = 3; abs(term).value > T::operation() * abs(sum).value; ++n) {
+    term *= x / T(n);
+    sum += term;
+  }
+  return sum;
+}
+
+/// Horner's rule: sum_k coefficients[k] x^k.
+template <class T>
+[[nodiscard]] T polynomial(std::span<const T> coefficients, const T& x) {
+  T sum = coefficients.back();
+  for (std::size_t k = coefficients.size() - 1; k-- > 0;) sum = sum * x + coefficients[k];
+  return sum;
+}
+
+/// Root y > 0 of an increasing function N with N(0) = 0 at the level `target` > 0, by Newton steps on log N as a
+/// function of log y, kept inside a bracket. @param rate T -> pair (N(y), N'(y)). @param start first guess, > 0.
+/// @return y; its error follows from the residual and the slope at y.
+template <class T, class Rate>
+[[nodiscard]] T solve_increasing(const Rate& rate, const T& target, const T& start) {
+  using Real = std::remove_cvref_t<decltype(start.value)>;
+  using std::abs, std::exp, std::isfinite, std::log, std::sqrt;
+  constexpr int kMaxSteps = 400;  // bisection in log y alone takes about 60 (double) or 250 (wide)
+  const Real resolution = 2 * std::numeric_limits<Real>::epsilon();
+  Real y = start.value, below = 0, above = std::numeric_limits<Real>::infinity();
+  for (int step = 0;; ++step) {
+    const auto [level, slope] = rate(T(y, Real(0)));
+    const T residual = level - target;
+    const bool settled = isfinite(residual.error) && abs(residual.value) <= residual.error / 4;
+    const bool done = settled || step == kMaxSteps || above - below <= resolution * y;
+    if (done) return {y, Real((abs(residual.value) + residual.error) / slope.value * Real(1.125) + resolution * y)};
+    (residual.value < 0 ? below : above) = y;
+    Real next = y * exp(Real(-log(Real(level.value / target.value)) * level.value / (y * slope.value)));
+    if (!(next > below && next < above)) {
+      next = !isfinite(above) ? Real(y * 1024) : below == 0 ? Real(y / 1024) : Real(sqrt(below) * sqrt(above));
+    }
+    if (abs(next - y) <= resolution * y / 4) below = above = y;
+    y = next;
+  }
+}
+
+/// Coefficients c(n,k), 0 <= k < max(n,1), of a two-term recurrence; c(0,0) = c(1,0) = 1.
+/// Rule::entry<T>(n, k, same, left) gives c(n,k) from same = c(n-1,k) and left = c(n-1,k-1) (0 outside the triangle).
+/// Rows for double are built at once, those for Wide on first use; safe to share between threads.
+template <class Rule>
+class Triangle {
+ public:
+  Triangle(int rows, Rule rule) : rows_(rows), rule_(std::move(rule)) { build(narrow_); }
+
+  template <class T>
+  [[nodiscard]] std::span<const T> row(int n) const {
+    if constexpr (std::is_same_v<T, Bounded<double>>) {
+      return narrow_[static_cast<std::size_t>(n)];
+    } else {
+      std::call_once(once_, [this] { build(wide_); });
+      return wide_[static_cast<std::size_t>(n)];
+    }
+  }
+
+ private:
+  template <class T>
+  void build(std::vector<std::vector<T>>& rows) const {
+    rows.assign(static_cast<std::size_t>(rows_ < 2 ? 2 : rows_), {T(1)});
+    for (int n = 2; n < rows_; ++n) {
+      const std::vector<T>& last = rows[static_cast<std::size_t>(n) - 1];
+      std::vector<T>& next = rows[static_cast<std::size_t>(n)];
+      next.resize(static_cast<std::size_t>(n));
+      for (int k = 0; k < n; ++k) {
+        const T same = k < n - 1 ? last[static_cast<std::size_t>(k)] : T(0);
+        const T left = k > 0 ? last[static_cast<std::size_t>(k) - 1] : T(0);
+        next[static_cast<std::size_t>(k)] = rule_.template entry<T>(n, k, same, left);
+      }
+    }
+  }
+
+  int rows_;
+  Rule rule_;
+  std::vector<std::vector<Bounded<double>>> narrow_;
+  mutable std::vector<std::vector<Bounded<Wide>>> wide_;
+  mutable std::once_flag once_;
+};
+
+/// Eulerian numbers A(n,k) / n!, the coefficients of A_n(x) / n! (DLMF 26.14.8): positive, sum 1.
+struct EulerianRule {
+  template <class T>
+  [[nodiscard]] T entry(int n, int k, const T& same, const T& left) const {
+    return (T(k + 1) * same + T(n - k) * left) / T(n);
+  }
+};
+
+/// log n! as a sum of logarithms.
+template <class T>
+[[nodiscard]] T log_factorial(int n) {
+  T sum(0.0);
+  for (int k = 2; k <= n; ++k) sum += log(T(k));
+  return sum;
+}
+
+/// 1/4 - (1 - D_1(x)) / x with the first Debye function D_1(x) = (1/x) int_0^x t / (e^t - 1) dt: odd, x/36 near 0,
+/// 1/4 at infinity; relative error below 1e-15 (small x) to 1e-14. Abramowitz and Stegun 27.1.1 and 27.1.2.
+[[nodiscard]] double debye_1_defect(double x);
+
+/// The root nearest 0 of the Eulerian polynomial A_n, n >= 2; all its roots are real and negative.
+[[nodiscard]] double eulerian_root(int n);
+
+}  // namespace sklar
