@@ -2,13 +2,14 @@
 /// Independence copula: C(u) = prod u_i, psi(t) = exp(-t), no parameter, any dimension, tau = 0, no tail dependence.
 /// Nelsen, An Introduction to Copulas (2006), eq. 2.2.7 and p. 116.
 
+#include "copula/archimedean_copula.hpp"
 #include "copula/family.hpp"
 
 namespace sklar::families::independence {
 
-class Independence final : public Copula {
+class Independence final : public ArchimedeanCopula {
  public:
-  explicit Independence(int dim) : Copula(dim) {}
+  explicit Independence(int dim) : ArchimedeanCopula(dim) {}
 
  private:
   void log_pdf_into(const PointsRef& u, ColumnOut out) const override { out = u.rowwise().sum() * 0.0; }
@@ -17,6 +18,8 @@ class Independence final : public Copula {
   void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
     last_column(u, tail, out);
   }
+
+  void log_abs_dpsi_into(int, const ColumnRef& t, ColumnOut out) const override { out = -t; }
 
   // A NaN among the given coordinates reaches the answer.
   static void last_column(const PointsRef& u, Tail tail, ColumnOut out) {

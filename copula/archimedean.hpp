@@ -1,0 +1,143 @@
+#pragma once
+/// Archimedean<G>: density, cdf, conditionals and their inverses in any dimension, written once over a Generator.
+///
+/// Every number is computed with a running error bound, in double first; where the bound exceeds the tolerance below,
+/// that row is repeated in Wide. So every row meets the tolerance whatever the parameter, and no row depends on
+/// another.
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "copula/archimedean_copula.hpp"
+#include "copula/generator.hpp"
+#include "copula/generic_route.hpp"
+
+namespace sklar {
+
+/// Bounds enforced on the value returned, and tested.
+inline constexpr double kLogTolerance = 8e-14;      ///< log densities, log cdf: absolute below 1, relative above
+inline constexpr double kHTolerance = 8e-14;        ///< relative, for h and 1 - h
+inline constexpr double kInverseTolerance = 4e-13;  ///< relative, for h^-1 and 1 - h^-1
+
+template <Generator G>
+class Archimedean final : public ArchimedeanCopula {
+ public:
+  Archimedean(int dim, G generator) : ArchimedeanCopula(dim), generator_(std::move(generator)) {}
+
+ private:
+  using Row = std::span<const double>;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  void log_pdf_into(const PointsRef& u, ColumnOut out) const override {
+    for_each_row(u, out, [this](Row row) {
+      return resolve([&]<class T>() { return log_density<T>(row); }, [](const auto& x) { return accept_log(x); });
+    });
+  }
+
+  void log_cdf_into(const PointsRef& u, ColumnOut out) const override {
+    for_each_row(u, out, [this](Row row) {
+      if (std::ranges::find(row, 0.0) != row.end()) return -kInfinity;
+      return resolve([&]<class T>() { return generator_.log_psi(generic_sum<T>(generator_, row)); },
+                     [](const auto& x) { return accept_log(x); });
+    });
+  }
+
+  void conditional_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
+    for_each_row(u, out, [this, tail](Row row) {
+      const double last = row.back();
+      if (row.size() == 1 || last == 0 || last == 1) return tail == Tail::lower ? last : 1 - last;
+      return resolve([&]<class T>() { return log_conditional<T>(row); },
+                     [tail](const auto& log_h) { return accept_probability(log_h, tail, kHTolerance); });
+    });
+  }
+
+  void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
+    for_each_row(u, out, [this, tail](Row row) {
+      const double p = row.back();
+      if (row.size() == 1 || p == 0 || p == 1) return tail == Tail::lower ? p : 1 - p;
+      return resolve([&]<class T>() { return -conditional_inverse<T>(row.first(row.size() - 1), p); },
+                     [tail](const auto& log_v) { return accept_probability(log_v, tail, kInverseTolerance); });
+    });
+  }
+
+  void log_abs_dpsi_into(int order, const ColumnRef& t, ColumnOut out) const override {
+    for_each_row(PointsRef(t), out, [this, order](Row row) {
+      return resolve([&]<class T>() { return generator_.log_abs_dpsi(order, T(row[0])); },
+                     [](const auto& x) { return accept_log(x); });
+    });
+  }
+
+  // Calls answer(row) for each row without NaN; a row with NaN gives NaN.
+  template <class Answer>
+  static void for_each_row(const PointsRef& u, ColumnOut out, const Answer& answer) {
+    std::vector<double> row(static_cast<std::size_t>(u.cols()));
+    for (Index i = 0; i < u.rows(); ++i) {
+      bool missing = false;
+      for (Index k = 0; k < u.cols(); ++k) {
+        row[static_cast<std::size_t>(k)] = u(i, k);
+        missing = missing || std::isnan(u(i, k));
+      }
+      out(i) = missing ? std::numeric_limits<double>::quiet_NaN() : answer(Row(row));
+    }
+  }
+
+  // kernel<T>() in double, and again in Wide if `accept` finds its error bound too large.
+  template <class Kernel, class Accept>
+  static double resolve(const Kernel& kernel, const Accept& accept) {
+    if (const auto answer = accept(kernel.template operator()<Bounded<double>>())) return *answer;
+    const Bounded<Wide> wide = kernel.template operator()<Bounded<Wide>>();
+    if (const auto answer = accept(wide)) return *answer;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  template <class Real>
+  static std::optional<double> accept_log(const Bounded<Real>& x) {
+    using std::abs, std::isfinite;
+    const Real size = abs(x.value);
+    if (!isfinite(x.error) || !(x.error <= kLogTolerance * (size > 1 ? size : Real(1)))) return std::nullopt;
+    return static_cast<double>(x.value);
+  }
+
+  // e^x or 1 - e^x from x = log of a probability. Results below the normal range are left to Wide.
+  template <class Real>
+  static std::optional<double> accept_probability(const Bounded<Real>& x, Tail tail, double tolerance) {
+    using std::isfinite;
+    const Bounded<Real> answer = tail == Tail::lower ? exp(x) : -expm1(x);
+    if (!isfinite(answer.error) || !(answer.error <= tolerance * answer.value)) return std::nullopt;
+    if (std::is_same_v<Real, double> && answer.value < std::numeric_limits<double>::min()) return std::nullopt;
+    return static_cast<double>(answer.value);
+  }
+
+  template <class T>
+  T log_density(Row u) const {
+    if constexpr (HasLogDensity<G>) {
+      return generator_.template log_density<T>(u);
+    } else {
+      return generic_log_density<T>(generator_, u);
+    }
+  }
+
+  template <class T>
+  T log_conditional(Row u) const {
+    if constexpr (HasLogConditional<G>) {
+      return generator_.template log_conditional<T>(u);
+    } else {
+      return generic_log_conditional<T>(generator_, u);
+    }
+  }
+
+  template <class T>
+  T conditional_inverse(Row given, double p) const {
+    if constexpr (HasConditionalInverse<G>) {
+      return generator_.template conditional_inverse<T>(given, p);
+    } else {
+      return generic_conditional_inverse<T>(generator_, given, p);
+    }
+  }
+
+  G generator_;
+};
+
+}  // namespace sklar

@@ -1,0 +1,59 @@
+#pragma once
+/// The routes that need nothing but psi, psi^-1 and the derivatives: what a family without closed forms uses, and what
+/// the closed forms of the others are tested against. They cancel at extremes; the error bound of T sees it. McNeil and
+/// Neslehova (2009), Annals of Statistics 37(5), Theorem 2 and its Corollary 2; docs/conventions.md.
+
+#include <span>
+
+#include "copula/generator.hpp"
+#include "copula/numerics.hpp"
+
+namespace sklar {
+
+/// t = sum psi^-1(u_i).
+template <class T, Generator G>
+[[nodiscard]] T generic_sum(const G& g, std::span<const double> u) {
+  T t(0.0);
+  for (const double value : u) {
+    if (value < 1) t += g.template psi_inv<T>(value);
+  }
+  return t;
+}
+
+/// log c(u) = log |psi^(d)(t)| - sum log |psi'(psi^-1(u_i))|.
+template <class T, Generator G>
+[[nodiscard]] T generic_log_density(const G& g, std::span<const double> u) {
+  T log_c = g.log_abs_dpsi(static_cast<int>(u.size()), generic_sum<T>(g, u));
+  for (const double value : u) {
+    log_c -= g.log_abs_dpsi(1, value < 1 ? g.template psi_inv<T>(value) : T(0.0));
+  }
+  return log_c;
+}
+
+/// log h = log |psi^(j)(t_k)| - log |psi^(j)(t_j)|, j = k - 1 values given.
+template <class T, Generator G>
+[[nodiscard]] T generic_log_conditional(const G& g, std::span<const double> u) {
+  const int given = static_cast<int>(u.size()) - 1;
+  const T before = generic_sum<T>(g, u.first(u.size() - 1));
+  return g.log_abs_dpsi(given, before + g.template psi_inv<T>(u.back())) - g.log_abs_dpsi(given, before);
+}
+
+/// -log v with h(given.., v) = p: Newton for s = psi^-1(v) > 0 on log |psi^(j)(t_j)| - log |psi^(j)(t_j + s)| = -log p.
+template <class T, Generator G>
+[[nodiscard]] T generic_conditional_inverse(const G& g, std::span<const double> given, double p) {
+  const int order = static_cast<int>(given.size());
+  const T before = generic_sum<T>(g, given);
+  const T at_start = g.log_abs_dpsi(order, before);
+  const auto rate = [&](const T& s) {
+    const T here = g.log_abs_dpsi(order, before + s);
+    return std::pair<T, T>(at_start - here, exp(g.log_abs_dpsi(order + 1, before + s) - here));
+  };
+  const T target = -log(T(p));
+  const T slope = exp(g.log_abs_dpsi(order + 1, before) - at_start);
+  const T guess = target / slope;
+  using std::isfinite;
+  const bool usable = guess.value > 0 && isfinite(guess.value);
+  return -g.log_psi(solve_increasing(rate, target, usable ? guess : T(1.0)));
+}
+
+}  // namespace sklar
