@@ -1,0 +1,181 @@
+#pragma once
+/// Clayton copula.
+///   psi(t) = (1 + theta t)_+^(-1/theta),  psi^-1(u) = (u^-theta - 1) / theta
+///   theta > 0 in any dimension; theta >= -1/(d-1) in dimension d (at the bound the mass lies on a surface)
+///   tau = theta / (theta + 2);  lambda_L = 2^(-1/theta) for theta > 0, else 0;  lambda_U = 0
+/// Nelsen (2006), An Introduction to Copulas, eq. 4.2.1; McNeil and Neslehova (2009), example 1 (domain).
+///
+/// With x_i = -theta log u_i, S = 1 + sum expm1(x_i):
+///   log c = sum_{k<d} log(1 + k theta) + (1 + theta)/theta sum x_i - (d + 1/theta) log S
+/// For large x_i everything is taken relative to the smallest u, m: S = e^(x_m) (1 + sum_{i != m} e^(x_i - x_m)(1 -
+/// e^-x_i)), all terms positive. For small x_i the terms of order 1 are removed by hand, leaving series for log1p(S)-S,
+/// expm1(x)-x.
+
+#include <algorithm>
+#include <limits>
+
+#include "copula/archimedean.hpp"
+#include "copula/family.hpp"
+#include "families/independence.hpp"
+
+namespace sklar::families::clayton {
+
+class Clayton {
+ public:
+  explicit Clayton(double theta) : theta_(theta) {}
+
+  template <class T>
+  T log_psi(const T& t) const {
+    const T base = T(theta_) * t;
+    if (base.value <= -1) return T(-std::numeric_limits<double>::infinity());
+    return -log1p(base) / T(theta_);
+  }
+
+  template <class T>
+  T psi_inv(double u) const {
+    return expm1(scaled<T>(u)) / T(theta_);
+  }
+
+  template <class T>
+  T log_abs_dpsi(int k, const T& t) const {
+    const T base = T(theta_) * t;
+    if (base.value <= -1) return T(-std::numeric_limits<double>::infinity());
+    return log_rising<T>(k) - (T(k) + T(1) / T(theta_)) * log1p(base);
+  }
+
+  template <class T>
+  T log_density(std::span<const double> u) const {
+    const double smallest = *std::ranges::min_element(u);
+    return -theta_ * std::log(smallest) < kSmall ? log_density_near_independence<T>(u)
+                                                 : log_density_scaled<T>(u, smallest);
+  }
+
+  template <class T>
+  T log_conditional(std::span<const double> u) const {
+    const auto given = u.first(u.size() - 1);
+    const T order(static_cast<int>(given.size()));
+    return -(order + T(1) / T(theta_)) * log1p_increment<T>(given, u.back());
+  }
+
+  // h = (1 + D/S)^-(j + 1/theta) with D = expm1(x_k), so D = S expm1(-log p / (j + 1/theta)) and -log v =
+  // log1p(D)/theta.
+  template <class T>
+  T conditional_inverse(std::span<const double> given, double p) const {
+    const T y = -log(T(p)) / (T(static_cast<int>(given.size())) + T(1) / T(theta_));
+    return log1p(sum<T>(given) * expm1(y)) / T(theta_);
+  }
+
+ private:
+  static constexpr double kSmall = 1.0;  // largest x_i of the series form; both forms hold at least 14 digits here
+
+  template <class T>
+  T scaled(double u) const {
+    return -T(theta_) * log(T(u));
+  }
+
+  // S = 1 + sum expm1(x_i), as e^(x_1) + sum_{i>1} expm1(x_i): one value alone leaves nothing to cancel.
+  template <class T>
+  T sum(std::span<const double> u) const {
+    T s = exp(scaled<T>(u[0]));
+    for (const double value : u.subspan(1)) s += expm1(scaled<T>(value));
+    return s;
+  }
+
+  // sum_{i<k} log(1 + i theta)
+  template <class T>
+  T log_rising(int k) const {
+    T total(0);
+    for (int i = 1; i < k; ++i) total += log1p(T(i) * T(theta_));
+    return total;
+  }
+
+  // log c = sum_{k<d} log1p(k theta) + sum x_i - d log1p(s) - [ (log1p(s) - s) + sum (expm1(x_i) - x_i) ] / theta,
+  // s = S - 1; also the form for theta < 0, where the density is 0 once S <= 0.
+  template <class T>
+  T log_density_near_independence(std::span<const double> u) const {
+    T s(0), x_sum(0), excess(0);
+    for (const double value : u) {
+      const T x = scaled<T>(value);
+      s += expm1(x);
+      x_sum += x;
+      excess += expm1_minus_x(x);
+    }
+    if (s.value + s.error <= -1) return T(-std::numeric_limits<double>::infinity());
+    const int d = static_cast<int>(u.size());
+    return log_rising<T>(d) + x_sum - T(d) * log1p(s) - (log1p_minus_x(s) + excess) / T(theta_);
+  }
+
+  template <class T>
+  T log_density_scaled(std::span<const double> u, double smallest) const {
+    T log_ratios(0);
+    const T rest = scaled_rest<T>(u, smallest, log_ratios);
+    const int d = static_cast<int>(u.size());
+    const T theta(theta_);
+    return log_rising<T>(d) - (T(1) + theta) * log_ratios - T(d - 1) * log(T(smallest)) -
+           (T(d) + T(1) / theta) * log1p(rest);
+  }
+
+  // S e^(-x_m) - 1 >= 0, theta > 0, m the smallest value (counted once); adds log(u_i / m) to log_ratios.
+  template <class T>
+  T scaled_rest(std::span<const double> u, double smallest, T& log_ratios) const {
+    T rest(0);
+    bool skipped = false;
+    for (const double value : u) {
+      if (value == smallest && !skipped) {
+        skipped = true;
+        continue;
+      }
+      const T ratio = log_ratio<T>(value, smallest);
+      log_ratios += ratio;
+      rest -= exp(-T(theta_) * ratio) * expm1(-scaled<T>(value));
+    }
+    return rest;
+  }
+
+  // log(1 + D/S), D = expm1(x_k) from the last value v: the growth of S by one more coordinate.
+  template <class T>
+  T log1p_increment(std::span<const double> given, double v) const {
+    const T x = scaled<T>(v);
+    if (theta_ < 0) {
+      const T s = sum<T>(given);
+      if (s.value + s.error <= 0) return T(0);
+      const T ratio = expm1(x) / s;
+      return ratio.value <= -1 ? T(-std::numeric_limits<double>::infinity()) : log1p(ratio);
+    }
+    const double smallest = *std::ranges::min_element(given);
+    T unused(0);
+    const T shift = -T(theta_) * log_ratio<T>(v, smallest);
+    const T weight = -expm1(-x) / (T(1) + scaled_rest<T>(given, smallest, unused));
+    // D/S = weight e^shift; for shift > 1 weight is of order 1 and the exponential may be huge.
+    return shift > T(1) ? shift + log(weight + exp(-shift)) : log1p(weight * exp(shift));
+  }
+
+  double theta_;
+};
+
+inline FamilyInfo info() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {
+      .name = "clayton",
+      .title = "Clayton",
+      .psi = "(1+theta*t)^(-1/theta)",
+      .source = "Nelsen 2006, eq. 4.2.1",
+      .parameters = {{"theta",
+                      [](int dim) {
+                        return Interval{-1.0 / (dim - 1), kInfinity};
+                      }}},
+      .examples = {{1e-3}, {0.5}, {2.0}, {20.0}, {200.0}, {-0.05}, {-0.3}, {-0.8}},
+      .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
+        if (theta[0] == 0) return std::make_shared<independence::Independence>(dim);
+        return std::make_shared<Archimedean<Clayton>>(dim, Clayton(theta[0]));
+      },
+      .tau = [](const Theta& theta) { return 1 / (1 + 2 / theta[0]); },
+      .theta_from_tau = [](double tau) { return Theta{2 * tau / (1 - tau)}; },
+      .tails =
+          [](const Theta& theta) {
+            return TailDependence{theta[0] > 0 ? std::exp2(-1 / theta[0]) : 0.0, 0.0};
+          },
+  };
+}
+
+}  // namespace sklar::families::clayton

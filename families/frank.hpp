@@ -1,0 +1,244 @@
+#pragma once
+/// Frank copula.
+///   psi(t) = -log(1 - (1 - e^-theta) e^-t) / theta,  psi^-1(u) = -log( (1 - e^(-theta u)) / (1 - e^-theta) )
+///   theta > 0 in any dimension; d = 2: any theta; d >= 3: theta >= -log(1 - r), r the root of the Eulerian polynomial
+///   A_(d-1) nearest 0 (|psi^(d)| changes sign there)
+///   tau = 1 - 4 (1 - D_1(theta)) / theta;  no tail dependence
+/// Nelsen (2006), eq. 4.2.5; Genest (1987), Biometrika 74(3) (tau); Hofert (2008), CSDA 52(12) (derivatives as
+/// polylogs).
+///
+/// With q = 1 - e^-theta, a(u) = psi-weight e^(-psi^-1(u)), x = q prod a(u_i):
+///   |psi^(k)| = Li_(1-k)(x) / theta,  Li_(1-k)(x) = x A_(k-1)(x) / (1-x)^k
+///   log c = (d-1) log(theta/q) + log A_(d-1)(x) - d log(1-x) - theta sum u_i
+/// a near 1 is carried as its complement delta = e^(-theta u)(1 - e^(-theta(1-u)))/q; 1 - x of theta > 0 relative to
+/// its largest part, (1-x) e^(theta m) = 1 + expm1(theta m)(1 - prod_{i != m} a(u_i)), m = min u: all terms positive.
+
+#include <algorithm>
+#include <limits>
+
+#include "copula/archimedean.hpp"
+#include "copula/family.hpp"
+#include "families/independence.hpp"
+
+namespace sklar::families::frank {
+
+class Frank {
+ public:
+  Frank(int dim, double theta)
+      : theta_(theta), eulerian_(std::make_shared<const Triangle<EulerianRule>>(dim + 1, EulerianRule{})) {}
+
+  template <class T>
+  T log_psi(const T& t) const {
+    return -minus_log_value(exp(-t), -expm1(-t));
+  }
+
+  template <class T>
+  T psi_inv(double u) const {
+    return -log_weight<T>(u);
+  }
+
+  template <class T>
+  T log_abs_dpsi(int k, const T& t) const {
+    if (k == 0) return log_psi(t);
+    const T x = q<T>() * exp(-t);
+    const T complement = -expm1(-t) + exp(-T(theta_) - t);  // 1 - x
+    return log(x / T(theta_)) + log_eulerian(k - 1, x) - T(k) * log(complement);
+  }
+
+  template <class T>
+  T log_density(std::span<const double> u) const {
+    const double smallest = *std::ranges::min_element(u);
+    const Accumulated<T> sums = accumulate<T>(u, smallest);
+    const int d = static_cast<int>(u.size());
+    const T theta(theta_);
+    return T(d - 1) * log(theta / q<T>()) + log_eulerian(d - 1, sums.x) - T(d) * sums.log_complement -
+           theta * sums.distance;
+  }
+
+  // log h = log a_k + log(A_(j-1)(x a_k) / A_(j-1)(x)) - j log(1 + x delta_k / (1-x)), j values given, x of those; for
+  // theta > 0 all three are negative. j = 1, either sign: h = a(1-x)/(1-xa), 1-h = delta/(1-xa).
+  template <class T>
+  T log_conditional(std::span<const double> u) const {
+    const auto given = u.first(u.size() - 1);
+    const T delta = complement<T>(u.back());
+    if (given.size() == 1) return log_conditional_pair<T>(given[0], weight<T>(u.back()), delta);
+    return -Conditional<T>(*this, given).decrease(-log_weight<T>(u.back()), delta).first;
+  }
+
+  template <class T>
+  T conditional_inverse(std::span<const double> given, double p) const {
+    if (given.size() == 1) {
+      // a = p / (p + (1-p) e^(-theta u_1)), the quadratic's root in closed form.
+      const T rest = (T(1) - T(p)) * exp(-T(theta_) * T(given[0]));
+      const T sum = T(p) + rest;
+      return minus_log_value(T(p) / sum, rest / sum);
+    }
+    const Conditional<T> conditional(*this, given);
+    const auto rate = [&](const T& s) { return conditional.decrease(s, -expm1(-s)); };
+    const T target = -log(T(p));
+    const T s = solve_increasing(rate, target, target / conditional.slope_at_0());
+    return minus_log_value(exp(-s), -expm1(-s));
+  }
+
+ private:
+  template <class T>
+  struct Accumulated {
+    T x;               // q prod a(u_i)
+    T log_complement;  // log(1-x) + theta m for theta > 0, log(1-x) for theta < 0
+    T distance;        // sum (u_i - m) for theta > 0, sum u_i for theta < 0
+  };
+
+  template <class T>
+  T q() const {
+    return -expm1(-T(theta_));
+  }
+
+  template <class T>
+  T weight(double u) const {
+    return expm1(-T(theta_) * T(u)) / expm1(-T(theta_));
+  }
+
+  // 1 - a(u)
+  template <class T>
+  T complement(double u) const {
+    const T theta(theta_);
+    return exp(-theta * T(u)) * expm1(-theta * (T(1) - T(u))) / expm1(-theta);
+  }
+
+  template <class T>
+  T log_weight(double u) const {
+    const T delta = complement<T>(u);
+    return delta < T(0.5) ? log1p(-delta) : log(weight<T>(u));
+  }
+
+  // -log u from a = a(u) and delta = 1 - a: u = -log(1 - q a)/theta with 1 - q a = e^-theta + q delta,
+  // 1 - u = log(1 + expm1(theta) delta)/theta.
+  template <class T>
+  T minus_log_value(const T& a, const T& delta) const {
+    const T theta(theta_);
+    const T upper = log1p(expm1(theta) * delta) / theta;
+    if (upper < T(0.5)) return -log1p(-upper);
+    const T x = q<T>() * a;
+    return -log(-(x < T(0.5) ? log1p(-x) : log(exp(-theta) + q<T>() * delta)) / theta);
+  }
+
+  // log A_n(x), A_0 = A_1 = 1; the table holds A_n / n!.
+  template <class T>
+  T log_eulerian(int n, const T& x) const {
+    if (n < 2) return T(0);
+    return log_factorial<T>(n) + log(polynomial(eulerian_->template row<T>(n), x));
+  }
+
+  template <class T>
+  Accumulated<T> accumulate(std::span<const double> u, double smallest) const {
+    const T theta(theta_);
+    const bool positive = theta_ > 0;
+    T others(1), log_others(0), distance(positive ? 0.0 : smallest);
+    bool skipped = false;
+    for (const double value : u) {
+      if (value == smallest && !skipped) {
+        skipped = true;
+        continue;
+      }
+      log_others += log_weight<T>(value);
+      others *= weight<T>(value);
+      distance += positive ? T(value) - T(smallest) : T(value);
+    }
+    const T x = q<T>() * weight<T>(smallest) * others;
+    if (!positive) return {x, log1p(-x), distance};
+    return {x, log1p(expm1(theta * T(smallest)) * -expm1(log_others)), distance};
+  }
+
+  template <class T>
+  T log_conditional_pair(double given, const T& a, const T& delta) const {
+    const T rest = exp(-T(theta_) * T(given));  // 1 - x
+    const T x = -expm1(-T(theta_) * T(given));
+    const T sum = theta_ > 0 ? rest + x * delta : T(1) - x * a;
+    const T upper = delta / sum;
+    return upper < T(0.5) ? log1p(-upper) : log(a * rest / sum);
+  }
+
+  // -log h as a function of s = -log a of the next coordinate, j >= 2 values given.
+  template <class T>
+  class Conditional {
+   public:
+    Conditional(const Frank& frank, std::span<const double> given)
+        : order_(static_cast<int>(given.size())), table_(frank.eulerian_->template row<T>(order_ - 1)) {
+      const double smallest = *std::ranges::min_element(given);
+      const Accumulated<T> sums = frank.accumulate<T>(given, smallest);
+      x_ = sums.x;
+      odds_ = frank.theta_ > 0 ? x_ * exp(T(frank.theta_) * T(smallest) - sums.log_complement) : x_ / (T(1) - x_);
+      polynomial_ = polynomial(table_, x_);
+    }
+
+    /// -log h(s) and its derivative in s; delta = 1 - e^-s.
+    [[nodiscard]] std::pair<T, T> decrease(const T& s, const T& delta) const {
+      T change(0), slope(0), power(1);
+      for (int k = 1; k < static_cast<int>(table_.size()); ++k) {
+        power *= x_;
+        const T& coefficient = table_[static_cast<std::size_t>(k)];
+        change += coefficient * power * expm1(-T(k) * s);
+        slope += T(k) * coefficient * power * exp(-T(k) * s);
+      }
+      const T rest = polynomial(table_, x_ * exp(-s));  // A_(j-1)(x e^-s), by itself where little of it is left
+      const T loss = change / polynomial_;
+      const T log_left = loss > T(-0.5) ? log1p(loss) : log(rest / polynomial_);
+      const T order(order_);
+      const T value = s - log_left + order * log1p(odds_ * delta);
+      const T rate = T(1) + slope / rest + order * odds_ * (T(1) - delta) / (T(1) + odds_ * delta);
+      return {value, rate};
+    }
+
+    [[nodiscard]] T slope_at_0() const { return decrease(T(0), T(0)).second; }
+
+   private:
+    int order_;
+    std::span<const T> table_;
+    T x_, odds_, polynomial_;  // x, x/(1-x), A_(j-1)(x)/(j-1)!
+  };
+
+  double theta_;
+  std::shared_ptr<const Triangle<EulerianRule>> eulerian_;
+};
+
+inline double theta_from_tau(double tau) {
+  // tau(theta) = 4 debye_1_defect(theta) is odd, increasing and concave for theta > 0, so Newton from 0 cannot
+  // overshoot.
+  const double target = std::abs(tau);
+  double theta = 9 * target;
+  for (int step = 0; step < 100; ++step) {
+    const double scale = 1e-6 * (1 + theta);
+    const double slope = 4 * (debye_1_defect(theta + scale) - debye_1_defect(theta - scale)) / (2 * scale);
+    const double change = (target - 4 * debye_1_defect(theta)) / slope;
+    theta += change;
+    if (std::abs(change) <= 1e-15 * theta) break;
+  }
+  return std::copysign(theta, tau);
+}
+
+inline FamilyInfo info() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {
+      .name = "frank",
+      .title = "Frank",
+      .psi = "-log(1-(1-exp(-theta))*exp(-t))/theta",
+      .source = "Nelsen 2006, eq. 4.2.5",
+      .parameters = {{"theta",
+                      [](int dim) {
+                        return Interval{dim == 2 ? -kInfinity : -std::log1p(-eulerian_root(dim - 1)), kInfinity};
+                      }}},
+      .examples = {{1e-3}, {1.0}, {5.0}, {30.0}, {300.0}, {-0.03}, {-0.6}, {-8.0}, {-100.0}},
+      .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
+        if (theta[0] == 0) return std::make_shared<independence::Independence>(dim);
+        return std::make_shared<Archimedean<Frank>>(dim, Frank(dim, theta[0]));
+      },
+      .tau = [](const Theta& theta) { return 4 * debye_1_defect(theta[0]); },
+      .theta_from_tau = [](double tau) { return Theta{theta_from_tau(tau)}; },
+      .tails =
+          [](const Theta&) {
+            return TailDependence{0.0, 0.0};
+          },
+  };
+}
+
+}  // namespace sklar::families::frank

@@ -1,0 +1,233 @@
+#pragma once
+/// Gumbel (Gumbel-Hougaard) copula.
+///   psi(t) = exp(-t^(1/theta)),  psi^-1(u) = (-log u)^theta
+///   theta >= 1 in any dimension (theta = 1: independence)
+///   tau = 1 - 1/theta;  lambda_L = 0, lambda_U = 2 - 2^(1/theta)
+/// Nelsen (2006), eq. 4.2.4; Hofert, Maechler and McNeil (2012), JMVA 110 (derivatives).
+///
+/// With s = t^(1/theta): |psi^(d)| = e^-s (s / (theta t))^d Q_d(s), Q_d(s) = sum_{k<=d} c(d,k) s^(k-d), where
+///   c(d,d) = 1, c(d+1,k) = (theta d - k) c(d,k) + c(d,k-1), theta d - k = (d-k) + d(theta-1) >= 0:
+/// all terms are positive (the usual alternating Stirling sums lose every digit for moderate d). With x_i = -log u_i:
+///   log c = (theta-1) sum log(x_i/s) + (sum x_i - s) + log Q_d(s)
+/// s is taken relative to the largest x, so that sum x_i - s and log(x_i/s) do not cancel.
+
+#include <algorithm>
+#include <limits>
+
+#include "copula/archimedean.hpp"
+#include "copula/family.hpp"
+#include "families/independence.hpp"
+
+namespace sklar::families::gumbel {
+
+/// b(n,k) = c(n,k+1) / (theta^(n-1) (n-1)!), 0 <= k < n: the scaled coefficients stay within the range of double
+/// longer.
+struct Rule {
+  double theta;
+
+  template <class T>
+  [[nodiscard]] T entry(int n, int k, const T& same, const T& left) const {
+    const T m(n - 1.0);
+    const T factor = T(n - 2 - k) + m * (T(theta) - T(1));  // theta (n-1) - (k+1)
+    return (factor * same + left) / (T(theta) * m);
+  }
+};
+
+class Gumbel {
+ public:
+  Gumbel(int dim, double theta)
+      : theta_(theta), coefficients_(std::make_shared<const Triangle<Rule>>(dim + 2, Rule{theta})) {}
+
+  template <class T>
+  T log_psi(const T& t) const {
+    return -root(t);
+  }
+
+  template <class T>
+  T psi_inv(double u) const {
+    return exp(T(theta_) * log(-log(T(u))));
+  }
+
+  template <class T>
+  T log_abs_dpsi(int k, const T& t) const {
+    const T s = root(t);
+    if (k == 0) return -s;
+    return -s + T(k) * (log(s) - log(t) - log(T(theta_))) + log_q(k, s);
+  }
+
+  template <class T>
+  T log_density(std::span<const double> u) const {
+    const Accumulated<T> sums = accumulate<T>(u);
+    const int d = static_cast<int>(u.size());
+    const T log_ratios = sums.log_ratios - T(d) * sums.log_stretch;
+    const T gap = sums.others - sums.largest * expm1(sums.log_stretch);
+    return (T(theta_) - T(1)) * log_ratios + gap + log_q(d, sums.s());
+  }
+
+  template <class T>
+  T log_conditional(std::span<const double> u) const {
+    const Conditional<T> conditional(*this, u.first(u.size() - 1));
+    return -conditional.decrease(conditional.log_growth(u.back())).first;
+  }
+
+  template <class T>
+  T conditional_inverse(std::span<const double> given, double p) const {
+    const Conditional<T> conditional(*this, given);
+    const auto rate = [&](const T& log_growth) { return conditional.decrease(log_growth); };
+    const T target = -log(T(p));
+    return conditional.value(solve_increasing(rate, target, target / conditional.slope_at_0()));
+  }
+
+ private:
+  template <class T>
+  struct Accumulated {
+    T largest;      // x_m = max x_i
+    T others;       // sum of the other x_i
+    T log_ratios;   // sum log(x_i / x_m)
+    T log_stretch;  // log(s / x_m)
+
+    [[nodiscard]] T s() const { return largest * exp(log_stretch); }
+  };
+
+  // t^(1/theta)
+  template <class T>
+  T root(const T& t) const {
+    return exp(log(t) / T(theta_));
+  }
+
+  template <class T>
+  Accumulated<T> accumulate(std::span<const double> u) const {
+    const double smallest = *std::ranges::min_element(u);
+    const T largest = -log(T(smallest));
+    T others(0), log_ratios(0), powers(0);
+    bool skipped = false;
+    for (const double value : u) {
+      if (value == smallest && !skipped) {
+        skipped = true;
+        continue;
+      }
+      const T ratio = log_ratio_of_logs<T>(value, smallest, largest);
+      others += -log(T(value));
+      log_ratios += ratio;
+      powers += exp(T(theta_) * ratio);
+    }
+    return {largest, others, log_ratios, log1p(powers) / T(theta_)};
+  }
+
+  // log( log u / log m ), x_m = -log m: by the difference of the logarithms where the two are near each other.
+  template <class T>
+  static T log_ratio_of_logs(double u, double m, const T& x_m) {
+    const T difference = log_ratio<T>(u, m) / x_m;  // 1 - x/x_m
+    return difference < T(0.5) ? log1p(-difference) : log(-log(T(u)) / x_m);
+  }
+
+  // log Q_n(s); terms are powers of s or of 1/s, whichever is below 1.
+  template <class T>
+  T log_q(int n, const T& s) const {
+    const auto row = coefficients_->template row<T>(n);
+    T sum = s < T(1) ? polynomial(row, s) : reversed_polynomial(row, T(1) / s);
+    T scale = T(n - 1) * log(T(theta_)) + log_factorial<T>(n - 1);
+    return scale + log(sum) - (s < T(1) ? T(n - 1) * log(s) : T(0));
+  }
+
+  template <class T>
+  static T reversed_polynomial(std::span<const T> row, const T& x) {
+    T sum = row.front();
+    for (std::size_t k = 1; k < row.size(); ++k) sum = sum * x + row[k];
+    return sum;
+  }
+
+  // -log h as a function of l = log(s_k / s_j), j values given:
+  //   s_j expm1(l) + j (theta-1) l - log( Q_j(s_j e^l) / Q_j(s_j) ), all terms positive.
+  template <class T>
+  class Conditional {
+   public:
+    Conditional(const Gumbel& gumbel, std::span<const double> given)
+        : gumbel_(gumbel), order_(static_cast<int>(given.size())), row_(gumbel.coefficients_->template row<T>(order_)) {
+      const Accumulated<T> sums = gumbel.accumulate<T>(given);
+      s_ = sums.s();
+      log_s_ = log(sums.largest) + sums.log_stretch;
+      for_each_term([&](const T& term, const T&) { sum_ += term; });
+    }
+
+    /// log(s_k / s_j) = log(1 + (x_k/s_j)^theta) / theta for the next coordinate v.
+    [[nodiscard]] T log_growth(double v) const {
+      const T theta(gumbel_.theta_);
+      const T z = theta * (log(-log(T(v))) - log_s_);
+      return (z > T(0) ? z + log1p(exp(-z)) : log1p(exp(z))) / theta;
+    }
+
+    /// The x_k that gives this growth.
+    [[nodiscard]] T value(const T& growth) const {
+      const T theta(gumbel_.theta_);
+      return exp(log_s_ + log_expm1(theta * growth) / theta);
+    }
+
+    [[nodiscard]] std::pair<T, T> decrease(const T& l) const {
+      T change(0), rest(0), slope(0);  // rest: Q_j(s_j e^l), by itself where little of it is left
+      for_each_term([&](const T& term, const T& exponent) {
+        const T left = term * exp(-exponent * l);
+        change += term * expm1(-exponent * l);
+        rest += left;
+        slope += exponent * left;
+      });
+      const T loss = change / sum_;
+      const T constant = T(order_) * (T(gumbel_.theta_) - T(1));
+      const T growth = expm1(l);
+      const T value = s_ * growth + constant * l - (loss > T(-0.5) ? log1p(loss) : log(rest / sum_));
+      return {value, s_ * (T(1) + growth) + constant + slope / rest};
+    }
+
+    [[nodiscard]] T slope_at_0() const { return decrease(T(0)).second; }
+
+   private:
+    // visit(term, j - k) for the terms b(j,k) s^(k-j) of Q_j(s), all divided by the larger of the first and last power.
+    template <class Visit>
+    void for_each_term(const Visit& visit) const {
+      const bool small = s_ < T(1);
+      const T step = small ? s_ : T(1) / s_;
+      const std::size_t last = row_.size() - 1;
+      T power(1);
+      for (std::size_t i = 0; i <= last; ++i) {
+        const std::size_t k = small ? i : last - i;
+        visit(row_[k] * power, T(static_cast<int>(last - k)));
+        power *= step;
+      }
+    }
+
+    const Gumbel& gumbel_;
+    int order_;
+    std::span<const T> row_;
+    T s_, log_s_, sum_;
+  };
+
+  double theta_;
+  std::shared_ptr<const Triangle<Rule>> coefficients_;
+};
+
+inline FamilyInfo info() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {
+      .name = "gumbel",
+      .title = "Gumbel",
+      .psi = "exp(-t^(1/theta))",
+      .source = "Nelsen 2006, eq. 4.2.4",
+      .parameters = {{"theta",
+                      [](int) {
+                        return Interval{1.0, kInfinity};
+                      }}},
+      .examples = {{1.0}, {1.001}, {1.5}, {3.0}, {20.0}, {200.0}},
+      .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
+        if (theta[0] == 1) return std::make_shared<independence::Independence>(dim);
+        return std::make_shared<Archimedean<Gumbel>>(dim, Gumbel(dim, theta[0]));
+      },
+      .tau = [](const Theta& theta) { return 1 - 1 / theta[0]; },
+      .theta_from_tau = [](double tau) { return Theta{1 / (1 - tau)}; },
+      .tails =
+          [](const Theta& theta) {
+            return TailDependence{0.0, 2 - std::exp2(1 / theta[0])};
+          },
+  };
+}
+
+}  // namespace sklar::families::gumbel
