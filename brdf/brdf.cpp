@@ -5,7 +5,7 @@
 
 namespace sklar::brdf {
 
-RgbRows Brdf::eval(const DirectionsRef& wo, const DirectionsRef& wi) const {
+RgbRows Brdf::eval_rows(const DirectionsRef& wo, const DirectionsRef& wi) const {
   if (wo.rows() != wi.rows()) {
     throw std::invalid_argument("eval: wo has " + std::to_string(wo.rows()) + " rows, wi has " +
                                 std::to_string(wi.rows()) + "; they must agree");

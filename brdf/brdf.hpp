@@ -40,7 +40,10 @@ class Brdf {
 
   /// Row by row the same numbers as the single call. @param wo, wi n x 3. @return n x 3.
   /// @throws std::invalid_argument if the row counts differ.
-  [[nodiscard]] RgbRows eval(const DirectionsRef& wo, const DirectionsRef& wi) const;
+  template <typename Wo, typename Wi>
+  [[nodiscard]] RgbRows eval(const Eigen::ArrayBase<Wo>& wo, const Eigen::ArrayBase<Wi>& wi) const {
+    return eval_rows(wo.derived(), wi.derived());
+  }
 
   /// Density per solid angle of wi given wo, as drawn by sample; 0 below the horizon. Default: cosine hemisphere.
   [[nodiscard]] virtual double pdf(const Vec3& wo, const Vec3& wi) const;
@@ -58,6 +61,9 @@ class Brdf {
 
   /// The direction drawn by sample. Default: cosine hemisphere.
   [[nodiscard]] virtual Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const;
+
+ private:
+  [[nodiscard]] RgbRows eval_rows(const DirectionsRef& wo, const DirectionsRef& wi) const;
 };
 
 using BrdfPtr = std::shared_ptr<const Brdf>;
