@@ -1,5 +1,6 @@
 #include "brdf/render/environment.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -25,14 +26,14 @@ double soft_box(const Vec3& direction, const Vec3& centre, double half_width, do
 }  // namespace
 
 Rgb studio_environment(const Vec3& direction) {
-  const Rgb ground(0.22, 0.18, 0.14);
-  const Rgb horizon(0.75, 0.77, 0.80);
-  const Rgb zenith(0.25, 0.42, 0.78);
+  const Rgb ground(0.16, 0.13, 0.10);
+  const Rgb horizon(0.52, 0.54, 0.57);
+  const Rgb zenith(0.17, 0.29, 0.55);
   const double up = direction.y();
   const Rgb sky = horizon + (zenith - horizon) * smooth_step(0.0, 1.0, up);
   Rgb radiance = ground + (sky - ground) * smooth_step(-0.12, 0.08, up);
-  radiance += Rgb(6.0, 5.7, 5.2) * soft_box(direction, {-0.75, 0.65, 0.6}, 0.35, 0.35, 0.08);
-  radiance += Rgb(2.4, 2.7, 3.0) * soft_box(direction, {0.95, 0.1, 0.15}, 0.12, 0.9, 0.08);
+  radiance += Rgb(4.0, 3.8, 3.5) * soft_box(direction, {-0.75, 0.65, 0.6}, 0.32, 0.32, 0.14);
+  radiance += Rgb(2.0, 2.2, 2.4) * soft_box(direction, {0.95, 0.1, 0.15}, 0.10, 0.9, 0.14);
   return radiance;
 }
 

@@ -12,7 +12,7 @@ namespace sklar::brdf {
 using Environment = std::function<Rgb(const Vec3& direction)>;
 
 /// The default: a blue sky over warm ground and two soft boxes, one at the upper left, a narrow one at the right.
-/// Radiance is about 0.1 to 6; a white Lambert surface facing the viewer leaves about 0.7.
+/// Radiance is between 0.1 and 4.6 in every channel.
 [[nodiscard]] Rgb studio_environment(const Vec3& direction);
 
 }  // namespace sklar::brdf

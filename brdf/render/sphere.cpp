@@ -30,7 +30,8 @@ class EnvironmentMap {
         const Rgb radiance =
             environment({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
         for (std::size_t c = 0; c < 3; ++c) {
-          planes_[c][static_cast<std::size_t>(row * kWidth + column)] = static_cast<float>(radiance(static_cast<int>(c)));
+          planes_[c][static_cast<std::size_t>(row * kWidth + column)] =
+              static_cast<float>(radiance(static_cast<int>(c)));
         }
       }
     });
@@ -170,7 +171,8 @@ void shade_row(const Brdf& brdf, const SphereOptions& options, const std::vector
     sums[static_cast<std::size_t>(samples.column[n])] += share * (reflected - options.background);
   }
   for (int column = 0; column < options.size; ++column) {
-    for (int c = 0; c < 3; ++c) image.at(row, column, c) = static_cast<float>(sums[static_cast<std::size_t>(column)](c));
+    for (int c = 0; c < 3; ++c)
+      image.at(row, column, c) = static_cast<float>(sums[static_cast<std::size_t>(column)](c));
   }
 }
 
