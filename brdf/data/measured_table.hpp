@@ -30,8 +30,9 @@ enum class Provenance { measured, reconstruction, synthetic, unknown };
 
 /// What happened to the data on the way in; every figure is a share or a ratio, 0 where it does not apply.
 struct ImportReport {
-  double negative_share = 0;    ///< share of stored values below 0, taken as 0
-  double median_asymmetry = 0;  ///< median over cells of |f(wi,wo) - f(wo,wi)| / mean, before symmetrising
+  double negative_share = 0;  ///< share of stored values below 0, taken as 0
+  double median_asymmetry =
+      0;  ///< median over cells of |f(wi,wo) - f(wo,wi)| / mean, channels summed, before symmetrising
   double mirror_asymmetry = 0;  ///< median over cells of |f(phi_d) - f(pi - phi_d)| / mean
 };
 

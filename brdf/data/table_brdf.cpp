@@ -1,39 +1,12 @@
 #include "brdf/data/table_brdf.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/data/interpolation.hpp"
+
 namespace sklar::brdf {
-namespace {
-
-/// Two neighbouring cells of one axis and the share of the second.
-struct Between {
-  int low;
-  int high;
-  double share;
-};
-
-/// @param position in cells, 0 at the centre of cell 0.
-Between clamped(double position, int cells) {
-  const double inside = std::clamp(position, 0.0, cells - 1.0);
-  const int low = std::min(static_cast<int>(inside), cells - 2);
-  return {low, low + 1, inside - low};
-}
-
-Between periodic(double position, int cells) {
-  const double floor = std::floor(position);
-  const int low = (static_cast<int>(floor) + cells) % cells;
-  return {low, (low + 1) % cells, position - floor};
-}
-
-double mix(double a, double b, double share) {
-  return a + share * (b - a);
-}
-
-}  // namespace
-
 TableBrdf::TableBrdf(std::shared_ptr<const MeasuredTable> table) : table_(std::move(table)) {
   if (!table_) throw std::invalid_argument("TableBrdf: no table given");
   require_table("TableBrdf", *table_);
@@ -46,9 +19,10 @@ Rgb TableBrdf::eval(const Vec3& wo, const Vec3& wi) const {
 
 Rgb TableBrdf::at(const HalfDifference& coordinates) const {
   constexpr double kDegree = std::numbers::pi / 180;
-  const Between i = clamped(Grid::theta_h * std::sqrt(coordinates.theta_h / (90 * kDegree)) - 0.5, Grid::theta_h);
-  const Between j = clamped(coordinates.theta_d / kDegree - 0.5, Grid::theta_d);
-  const Between k = periodic(coordinates.phi_d / kDegree - 0.5, Grid::phi_d);
+  const Between i =
+      between_clamped(Grid::theta_h * std::sqrt(coordinates.theta_h / (90 * kDegree)) - 0.5, Grid::theta_h);
+  const Between j = between_clamped(coordinates.theta_d / kDegree - 0.5, Grid::theta_d);
+  const Between k = between_periodic(coordinates.phi_d / kDegree - 0.5, Grid::phi_d);
   Rgb result;
   for (int channel = 0; channel < 3; ++channel) {
     const double* plane = table_->values[static_cast<std::size_t>(channel)].data();

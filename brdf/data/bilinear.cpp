@@ -1,0 +1,82 @@
+#include "brdf/data/bilinear.hpp"
+
+#include <stdexcept>
+
+namespace sklar::brdf {
+
+BilinearStack::BilinearStack(int images, int rows, int columns, std::span<const float> values)
+    : rows_(rows), columns_(columns), values_(values.begin(), values.end()) {
+  if (rows < 2 || columns < 2 || values_.size() != static_cast<std::size_t>(images) * rows * columns) {
+    throw std::invalid_argument("BilinearStack: sizes do not agree with the values");
+  }
+}
+
+double BilinearStack::at(const Vec2& position, const Between& image) const {
+  const Between x = between_clamped(position.x() * (columns_ - 1), columns_);
+  const Between y = between_clamped(position.y() * (rows_ - 1), rows_);
+  const auto within = [&](int n) {
+    const double* low = values_.data() + (static_cast<std::ptrdiff_t>(n) * rows_ + y.low) * columns_;
+    const double* high = values_.data() + (static_cast<std::ptrdiff_t>(n) * rows_ + y.high) * columns_;
+    return mix(mix(low[x.low], low[x.high], x.share), mix(high[x.low], high[x.high], x.share), y.share);
+  };
+  return mix(within(image.low), within(image.high), image.share);
+}
+
+BilinearWarp::BilinearWarp(int images, int rows, int columns, std::span<const float> density)
+    : rows_(rows),
+      columns_(columns),
+      density_(density.begin(), density.end()),
+      row_mass_(density.size()),
+      mass_(static_cast<std::size_t>(images) * rows) {
+  if (rows < 2 || columns < 2 || density_.size() != mass_.size() * columns) {
+    throw std::invalid_argument("BilinearWarp: sizes do not agree with the density");
+  }
+  for (std::ptrdiff_t image = 0; image < images; ++image) {
+    const std::ptrdiff_t nodes = static_cast<std::ptrdiff_t>(rows) * columns;
+    double* value = density_.data() + image * nodes;
+    double* along = row_mass_.data() + image * nodes;
+    double* over = mass_.data() + image * rows;
+    for (std::ptrdiff_t n = 0; n < nodes; ++n) {
+      along[n] = n % columns == 0 ? 0.0 : along[n - 1] + 0.5 * (value[n - 1] + value[n]);
+    }
+    const auto row_total = [&](std::ptrdiff_t row) { return along[(row + 1) * columns - 1]; };
+    for (std::ptrdiff_t row = 1; row < rows; ++row) {
+      over[row] = over[row - 1] + 0.5 * (row_total(row - 1) + row_total(row));
+    }
+    const double total = over[rows - 1];
+    if (!(total > 0)) throw std::invalid_argument("BilinearWarp: image " + std::to_string(image) + " has no mass");
+    for (std::ptrdiff_t n = 0; n < nodes; ++n) {
+      value[n] /= total;
+      along[n] /= total;
+    }
+    for (std::ptrdiff_t row = 0; row < rows; ++row) over[row] /= total;
+  }
+}
+
+double BilinearWarp::mixed(const std::vector<double>& table, const Between& image, int row, int column) const {
+  const auto at = [&](int n) {
+    return table[(static_cast<std::size_t>(n) * rows_ + static_cast<std::size_t>(row)) * columns_ + column];
+  };
+  return mix(at(image.low), at(image.high), image.share);
+}
+
+Vec2 BilinearWarp::invert(const Vec2& position, const Between& image) const {
+  const Between x = between_clamped(position.x() * (columns_ - 1), columns_);
+  const Between y = between_clamped(position.y() * (rows_ - 1), rows_);
+  const auto over_rows = [&](const std::vector<double>& table, int column) {
+    return mix(mixed(table, image, y.low, column), mixed(table, image, y.high, column), y.share);
+  };
+  const auto mass = [&](int n) { return mass_[static_cast<std::size_t>(n) * rows_ + y.low]; };
+
+  const double left = over_rows(density_, x.low);
+  const double right = over_rows(density_, x.high);
+  const double part = over_rows(row_mass_, x.low) + x.share * (left + 0.5 * x.share * (right - left));
+  const double whole = over_rows(row_mass_, columns_ - 1);
+  const double low = mixed(row_mass_, image, y.low, columns_ - 1);
+  const double high = mixed(row_mass_, image, y.high, columns_ - 1);
+  const double below =
+      mix(mass(image.low), mass(image.high), image.share) + y.share * (low + 0.5 * y.share * (high - low));
+  return {whole > 0 ? part / whole : position.x(), below};
+}
+
+}  // namespace sklar::brdf
