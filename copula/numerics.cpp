@@ -7,9 +7,10 @@ namespace sklar {
 
 namespace {
 
-// int_0^x t / (e^t - 1) dt for x >= 2 (A&S 27.1.2); terms fall like e^(-k x).
+// int_0^x t / (e^t - 1) dt for x >= 2 (A&S 27.1.2); terms fall like e^(-k x), below rounding from x = 50 on.
 double debye_integral_from_above(double x) {
   double sum = std::numbers::pi * std::numbers::pi / 6;
+  if (x > 50) return sum;
   for (int k = 1; k <= 24; ++k) sum -= std::exp(-k * x) * (x / k + 1.0 / (k * k));
   return sum;
 }
