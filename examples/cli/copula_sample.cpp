@@ -1,0 +1,65 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "copula/random.hpp"
+#include "examples/cli/command.hpp"
+#include "examples/cli/text.hpp"
+#include "families/registry.hpp"
+
+namespace sklar::cli {
+namespace {
+
+struct Options {
+  std::string family = "frank";
+  std::string theta;
+  std::optional<double> tau;
+  int dim = 2;
+  long long n = 0;
+  std::string given;
+  std::string output;
+};
+
+std::string json_text(const Options& options, const Theta& theta, std::uint64_t seed,
+                      const std::vector<std::string>& columns, const Points& u) {
+  auto rows = nlohmann::ordered_json::array();
+  for (Index row = 0; row < u.rows(); ++row) {
+    rows.push_back(std::vector<double>(u.row(row).begin(), u.row(row).end()));
+  }
+  const nlohmann::ordered_json document{{"family", options.family}, {"theta", theta},
+                                        {"dim", options.dim},       {"seed", seed},
+                                        {"columns", columns},       {"rows", rows}};
+  return document.dump() + '\n';
+}
+
+void run(const Options& options, const Common& common) {
+  const FamilyInfo& family = families::find(options.family);
+  const Theta theta =
+      options.tau ? family.from_tau(options.dim, *options.tau) : parse_numbers(options.theta, ',', "--theta");
+  const CopulaPtr copula = family.make(options.dim, theta);
+  const std::vector<double> values = parse_numbers(options.given, ',', "--given");
+  const Points given = Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Index>(values.size())).transpose();
+  Rng rng(common.seed);
+  const Points u = copula->sample(options.n, rng, given);
+  std::vector<std::string> columns;
+  for (int k = 1; k <= options.dim; ++k) columns.push_back("u" + std::to_string(k));
+  write_output(options.output, common.json ? json_text(options, theta, common.seed, columns, u) : csv(columns, u));
+}
+
+}  // namespace
+
+void add_copula_sample(CLI::App& parent, Common& common) {
+  CLI::App* command = parent.add_subcommand("sample", "draw points of a copula, leading coordinates given or not");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--family", options->family, "see `sklar families`")->capture_default_str();
+  auto* theta = command->add_option("--theta", options->theta, "parameters, separated by commas");
+  auto* tau = command->add_option("--tau", options->tau, "Kendall's tau in place of the parameter");
+  theta->excludes(tau);
+  command->add_option("--dim", options->dim, "dimension")->capture_default_str();
+  command->add_option("-n", options->n, "number of points")->required();
+  command->add_option("--given", options->given, "leading coordinates in [0,1], separated by commas");
+  command->add_option("-o", options->output, "write here, not to standard output");
+  finish_command(*command, common, [options, &common] { run(*options, common); });
+}
+
+}  // namespace sklar::cli

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "examples/cli/command.hpp"
+#include "examples/cli/text.hpp"
+#include "families/registry.hpp"
+
+namespace sklar::cli {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+bool admissible(const FamilyInfo& family, int dim, const Theta& theta) {
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    if (!family.parameters[i].domain(dim).contains(theta[i])) return false;
+  }
+  return true;
+}
+
+/// Whether any example admissible in the dimension has tail dependence.
+TailDependence strongest_tails(const FamilyInfo& family, int dim) {
+  TailDependence strongest{0, 0};
+  for (const Theta& theta : family.examples) {
+    if (!admissible(family, dim, theta)) continue;
+    const TailDependence tails = family.tails(theta);
+    strongest = {std::max(strongest.lower, tails.lower), std::max(strongest.upper, tails.upper)};
+  }
+  return strongest;
+}
+
+std::string tails_text(const TailDependence& tails) {
+  if (tails.lower > 0 && tails.upper > 0) return "both";
+  if (tails.lower > 0) return "lower";
+  return tails.upper > 0 ? "upper" : "none";
+}
+
+std::string tau_text(const FamilyInfo& family, int dim) {
+  if (family.parameters.empty()) return digits(family.tau({}));
+  return family.parameters.size() == 1 ? family.tau_range(dim).to_text() : "";
+}
+
+Cells table_row(const FamilyInfo& family, int dim) {
+  std::string parameters;
+  for (const ParameterInfo& parameter : family.parameters) {
+    if (!parameters.empty()) parameters += "; ";
+    parameters += parameter.name + " in " + parameter.domain(dim).to_text();
+  }
+  return {family.name, parameters.empty() ? "none" : parameters, tau_text(family, dim),
+          tails_text(strongest_tails(family, dim)), family.source};
+}
+
+nlohmann::ordered_json json_row(const FamilyInfo& family, int dim) {
+  auto parameters = nlohmann::ordered_json::array();
+  for (const ParameterInfo& parameter : family.parameters) {
+    const Interval domain = parameter.domain(dim);
+    parameters.push_back({{"name", parameter.name},
+                          {"lowest", json_number(domain.lowest)},
+                          {"highest", json_number(domain.highest)},
+                          {"domain", domain.to_text()}});
+  }
+  return {
+      {"name", family.name},      {"title", family.title},        {"psi", family.psi},
+      {"parameters", parameters}, {"tau", tau_text(family, dim)}, {"tails", tails_text(strongest_tails(family, dim))},
+      {"source", family.source}};
+}
+
+/// Columns padded to the same width, two blanks between them.
+std::string aligned(const std::vector<Cells>& rows) {
+  std::vector<std::size_t> width(rows.front().size(), 0);
+  for (const Cells& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  }
+  std::string out;
+  for (const Cells& row : rows) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) out += row[i] + std::string(width[i] + 2 - row[i].size(), ' ');
+    out += row.back() + '\n';
+  }
+  return out;
+}
+
+void run(int dim, bool json) {
+  if (dim < 2) throw std::invalid_argument("families: dim must be 2 or more, got " + std::to_string(dim));
+  if (json) {
+    nlohmann::ordered_json document{{"dim", dim}, {"families", nlohmann::ordered_json::array()}};
+    for (const FamilyInfo& family : families::all()) document["families"].push_back(json_row(family, dim));
+    return write_output("", document.dump(2) + '\n');
+  }
+  std::vector<Cells> rows{{"family", "parameters, d = " + std::to_string(dim), "tau", "tails", "source"}};
+  for (const FamilyInfo& family : families::all()) rows.push_back(table_row(family, dim));
+  write_output("", aligned(rows));
+}
+
+}  // namespace
+
+void add_families(CLI::App& parent, Common& common) {
+  CLI::App* command = parent.add_subcommand("families", "list the copula families");
+  const auto dim = std::make_shared<int>(2);
+  command->add_option("--dim", *dim, "dimension for which the domains are shown")->capture_default_str();
+  finish_command(*command, common, [dim, &common] { run(*dim, common.json); });
+}
+
+}  // namespace sklar::cli

@@ -1,0 +1,66 @@
+/// The `sklar` command. Exit status: 0, 1 = one line on stderr says what is wrong, 2 = wrong usage.
+
+#include <tbb/global_control.h>
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <thread>
+#include <utility>
+
+#include "examples/cli/command.hpp"
+
+namespace sklar::cli {
+
+void finish_command(CLI::App& command, Common& common, std::function<void()> job) {
+  command.add_flag("--json", common.json, "print JSON");
+  command.add_option("--seed", common.seed, "seed of everything random")->capture_default_str();
+  command.add_option("--threads", common.threads, "number of threads; as many as the machine has by default")
+      ->check(CLI::Range(1, 1024));
+  command.callback([&common, job = std::move(job)] { common.job = job; });
+}
+
+namespace {
+
+/// Runs the job of the chosen subcommand. @throws CLI::ParseError for wrong usage.
+void run(CLI::App& app, int argc, char** argv) {
+  Common common;
+  app.set_version_flag("--version", SKLAR_VERSION);
+  app.require_subcommand(1);
+  add_families(app, common);
+  CLI::App* copula = app.add_subcommand("copula", "evaluate, sample and fit copulas")->require_subcommand(1);
+  add_copula_table(*copula, common);
+  add_copula_sample(*copula, common);
+
+  app.parse(argc, argv);
+  const auto threads = common.threads > 0 ? static_cast<unsigned>(common.threads) : std::thread::hardware_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads > 0 ? threads : 1);
+  common.job();
+}
+
+int fail(int status, std::string message) {
+  for (char& c : message) {
+    if (c == '\n') c = ' ';
+  }
+  std::cerr << "sklar: " << message << '\n';
+  return status;
+}
+
+}  // namespace
+}  // namespace sklar::cli
+
+int main(int argc, char** argv) {
+  CLI::App app{"Copulas, and reflectance models built on them", "sklar"};
+  try {
+    sklar::cli::run(app, argc, argv);
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    return sklar::cli::fail(2, std::string(error.what()) + " (--help shows the usage)");
+  } catch (const std::bad_alloc&) {
+    return sklar::cli::fail(1, "not enough memory");
+  } catch (const std::exception& error) {
+    return sklar::cli::fail(1, error.what());
+  }
+  return 0;
+}

@@ -1,0 +1,96 @@
+#include "examples/cli/text.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "copula/error.hpp"
+#include "copula/file.hpp"
+
+namespace sklar::cli {
+
+std::string digits(double value) {
+  if (!std::isfinite(value)) return to_text(value);
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.17g", value);
+  return buffer;
+}
+
+nlohmann::ordered_json json_number(double value) {
+  if (std::isfinite(value)) return value;
+  return to_text(value);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  const std::string copy(text);
+  if (copy.empty() || std::isspace(static_cast<unsigned char>(copy.front()))) return std::nullopt;
+  char* end = nullptr;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (end != copy.c_str() + copy.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<double> parse_numbers(std::string_view text, char separator, std::string_view what) {
+  std::vector<double> numbers;
+  const char separators[] = {separator, ' ', '\t', '\0'};
+  for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string_view::npos;) {
+    const std::string_view item = text.substr(begin, text.find_first_of(separators, begin) - begin);
+    const std::optional<double> number = parse_number(item);
+    if (!number) throw std::invalid_argument(std::string(what) + ": '" + std::string(item) + "' is not a number");
+    numbers.push_back(*number);
+    begin += item.size();
+  }
+  return numbers;
+}
+
+std::vector<std::string> split_csv(std::string_view line) {
+  std::vector<std::string> fields(1);
+  bool inside = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && inside && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (c == '"') {
+      inside = !inside;
+    } else if (c == ',' && !inside) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) out.append(c == '"' ? 2 : 1, c);
+  return out + '"';
+}
+
+std::string csv_field(std::string_view field) {
+  return field.find_first_of(",\"") == std::string_view::npos ? std::string(field) : in_quotes(field);
+}
+
+std::string csv(const std::vector<std::string>& header, const PointsRef& rows) {
+  std::string out;
+  for (const std::string& name : header) out += (out.empty() ? "" : ",") + name;
+  out += '\n';
+  for (Index row = 0; row < rows.rows(); ++row) {
+    for (Index column = 0; column < rows.cols(); ++column) {
+      if (column > 0) out += ',';
+      out += digits(rows(row, column));
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+void write_output(const std::string& path, std::string_view text) {
+  if (!path.empty()) return write_file(path, text);
+  std::cout << text << std::flush;
+  if (!std::cout) throw FileError("standard output", "cannot be written");
+}
+
+}  // namespace sklar::cli

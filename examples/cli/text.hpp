@@ -1,0 +1,41 @@
+#pragma once
+/// Numbers and lines in and out.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "copula/types.hpp"
+
+namespace sklar::cli {
+
+/// 17 significant digits; -inf, inf and nan spelt so.
+[[nodiscard]] std::string digits(double value);
+
+/// A JSON number, or one of the strings "-inf", "inf", "nan".
+[[nodiscard]] nlohmann::ordered_json json_number(double value);
+
+/// The nearest double of the whole text; empty for anything else. Beyond the range: 0 or an infinity.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+
+/// Numbers separated by blanks or by the given separator. @throws std::invalid_argument naming what and the bad item.
+[[nodiscard]] std::vector<double> parse_numbers(std::string_view text, char separator, std::string_view what);
+
+/// The fields of one CSV line; a field may stand in double quotes, a quote inside it doubled.
+[[nodiscard]] std::vector<std::string> split_csv(std::string_view line);
+
+/// The text in quotes, as CSV.
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+/// The field as CSV: in quotes where it holds a comma or a quote.
+[[nodiscard]] std::string csv_field(std::string_view field);
+
+/// A header and rows as CSV.
+[[nodiscard]] std::string csv(const std::vector<std::string>& header, const PointsRef& rows);
+
+/// To standard output, or, where path is not empty, to a file, whole or not at all. @throws FileError
+void write_output(const std::string& path, std::string_view text);
+
+}  // namespace sklar::cli

@@ -1,0 +1,151 @@
+/// The contract of every subcommand: exit status, one line on stderr, nothing half-written.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "families/registry.hpp"
+#include "tests/cli/run_command.hpp"
+
+namespace sklar::cli {
+namespace {
+
+using Command = CommandTest;
+using Families = CommandTest;
+using CopulaSample = CommandTest;
+using CopulaTable = CommandTest;
+
+const std::string kHeader = "family,theta,quantity,d,u\n";
+const std::string kHeaderExpected = "family,theta,quantity,d,u,expected\n";
+
+TEST_F(Command, EverySubcommandHasHelpAndTheCommonOptions) {
+  for (const std::string command : {"families", "copula table", "copula sample"}) {
+    const Result result = run(command + " --help");
+    EXPECT_EQ(result.status, 0) << command;
+    EXPECT_EQ(result.err, "") << command;
+    for (const std::string option : {"--help", "--json", "--seed", "--threads"}) {
+      EXPECT_NE(result.out.find(option), std::string::npos) << command << " " << option;
+    }
+  }
+}
+
+TEST_F(Command, WrongUsageIsStatus2) {
+  for (const std::string arguments :
+       {"", "copula", "nonsense", "families --nonsense", "families --threads 0", "families --seed x",
+        "copula sample --family independence", "copula sample -n ten", "copula sample -n 1 --theta 1 --tau .5",
+        "copula table"}) {
+    expect_usage_error(arguments);
+  }
+}
+
+TEST_F(Families, ListsEveryRegisteredFamily) {
+  const Result result = run("families");
+  EXPECT_EQ(result.status, 0);
+  for (const FamilyInfo& family : families::all()) {
+    EXPECT_NE(result.out.find("\n" + family.name + " "), std::string::npos) << family.name;
+  }
+  expect_refused("families --dim 1", "dim must be 2 or more, got 1");
+}
+
+TEST_F(CopulaSample, PrintsAHeaderAndNRows) {
+  const Result result = run("copula sample --family independence --dim 3 -n 2 --given 0.25 --seed 7");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("u1,u2,u3\n0.25,")) << result.out;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3);
+  EXPECT_EQ(run("copula sample --family independence --dim 3 -n 2 --given 0.25 --seed 7").out, result.out);
+  EXPECT_NE(run("copula sample --family independence --dim 3 -n 2 --given 0.25 --seed 8").out, result.out);
+}
+
+TEST_F(CopulaSample, RefusesWhatHasNoSample) {
+  const std::string sample = "copula sample --family independence -o out.csv ";
+  expect_refused(sample + "-n 0", "n must be 1 or more, got 0");
+  expect_refused(sample + "-n 1 --dim 1", "dimension must be 2 or more, got 1");
+  expect_refused(sample + "-n 1 --given 0.1,1.5 --dim 3", "1.5");
+  expect_refused(sample + "-n 1 --given 0.1,0.5", "given must have 0 to 1 columns, got 2");
+  expect_refused(sample + "-n 1 --given 0.1,x --dim 3", "'x' is not a number");
+  expect_refused("copula sample --family gaussian -n 1", "known families: " + families::all().front().name);
+}
+
+TEST_F(CopulaSample, RefusesAnOutputThatCannotBeWritten) {
+  expect_refused("copula sample --family independence -n 1 -o missing/out.csv", "missing/out.csv");
+  expect_refused("copula sample --family independence -n 1 -o .", "directory");
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
+  expect_refused("copula sample --family independence -n 1 -o /dev/full", "/dev/full: cannot be written");
+}
+
+TEST_F(CopulaTable, AnswersInTheOrderOfTheFile) {
+  write("in.csv", kHeader +
+                      "independence,,h,2,0.5 0.25\r\n"
+                      "independence,,log_pdf,3,0.5 0.25 1\n"
+                      "independence,,h,2,1 0.1\n"
+                      "independence,,log_cdf,2,0 0.5\n"
+                      "independence,,h,2,0.5 nan\n");
+  const Result result = run("copula table in.csv -o out.csv");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(read("out.csv"),
+            "family,theta,quantity,d,u,value\n"
+            "independence,,h,2,0.5 0.25,0.25\n"
+            "independence,,log_pdf,3,0.5 0.25 1,0\n"
+            "independence,,h,2,1 0.1,0.10000000000000001\n"
+            "independence,,log_cdf,2,0 0.5,-inf\n"
+            "independence,,h,2,0.5 nan,nan\n");
+  EXPECT_NE(result.err.find("independence h: 3 rows\n"), std::string::npos) << result.err;
+}
+
+TEST_F(CopulaTable, ComparesWithTheExpectedValue) {
+  write("in.csv", kHeaderExpected +
+                      "independence,,h,2,0.5 0.25,2.500000000000000000000001e-1\n"
+                      "independence,,h,2,0.5 0.25,0.26\n"
+                      "independence,,h,2,0.5 0,1e-300300\n"
+                      "independence,,log_pdf,2,0.5 0,\n");
+  const Result result = run("copula table in.csv");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("family,theta,quantity,d,u,expected,value,error\n")) << result.out;
+  EXPECT_NE(result.out.find("1e-300300,0,0\n"), std::string::npos) << result.out;
+  EXPECT_TRUE(result.out.ends_with("0.5 0,,0,\n")) << result.out;
+  EXPECT_NE(result.err.find("independence h: 3 rows, 2 of 3 pass, worst error 0.0392"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("in line 3\n"), std::string::npos) << result.err;
+}
+
+TEST_F(CopulaTable, AnInadmissibleRowSaysWhyAndHarmsNoOther) {
+  write("in.csv", kHeader +
+                      "independence,,h,2,0.5 0.25\n"
+                      "independence,,h,2,0.5 1.25\n"
+                      "independence,,h,2,0.5 0.75\n");
+  const Result result = run("copula table in.csv");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.out.find(",0.5 0.25,0.25\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(",0.5 1.25,\"error: h: u must be in [0,1]"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(",0.5 0.75,0.75\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("3 rows, 1 without a value"), std::string::npos) << result.err;
+}
+
+TEST_F(CopulaTable, RefusesABadRowWithItsLine) {
+  const std::string good = "independence,,cdf,2,0.5 0.25\n";
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    write("in.csv", text);
+    expect_refused("copula table in.csv -o out.csv", message);
+  };
+  refused("", "line 1: the header must be");
+  refused("a,b\n", "line 1: the header must be");
+  refused(kHeader + good + "independence,,cdf,2\n", "line 3: must have 5 fields, got 4");
+  refused(kHeader + "independence,,cdf,2,0.5\n" + good, "line 2: u must hold 2 numbers, got 1");
+  refused(kHeader + good + good + "independence,,cdf,2,0.5 x\n", "line 4: u: 'x' is not a number");
+  refused(kHeader + good + "gaussian,,cdf,2,0.5 0.5\n", "line 3: unknown family 'gaussian'; known families: ");
+  refused(kHeader + good + "independence,,pdf,2,0.5 0.5\n",
+          "line 3: unknown quantity 'pdf'; known quantities: log_pdf");
+  refused(kHeader + good + "independence,1,cdf,2,0.5 0.5\n", "line 3: independence takes 0 parameters, got 1");
+  refused(kHeader + "independence,,cdf,1,0.5\n", "line 2: d must be a whole number from 2, got '1'");
+  refused(kHeader + good + "\n" + good, "line 3: must have 5 fields, got 1");
+  refused(kHeaderExpected + "independence,,cdf,2,0.5 0.5,abc\n", "line 2: expected: 'abc' is not a number");
+}
+
+TEST_F(CopulaTable, RefusesWhatIsNoFile) {
+  expect_refused("copula table missing.csv", "missing.csv: no such file");
+  expect_refused("copula table .", "is a directory");
+}
+
+}  // namespace
+}  // namespace sklar::cli
