@@ -83,12 +83,12 @@ class Archimedean final : public ArchimedeanCopula {
     }
   }
 
-  // kernel<T>() in double, and again in Wide if `accept` finds its error bound too large.
+  // kernel<T>() in the first number type whose error bound `accept` finds small enough.
   template <class Kernel, class Accept>
   static double resolve(const Kernel& kernel, const Accept& accept) {
-    if (const auto answer = accept(kernel.template operator()<Bounded<double>>())) return *answer;
-    const Bounded<Wide> wide = kernel.template operator()<Bounded<Wide>>();
-    if (const auto answer = accept(wide)) return *answer;
+    if (const auto answer = accept(kernel.template operator()<Narrow>())) return *answer;
+    if (const auto answer = accept(kernel.template operator()<Extended>())) return *answer;
+    if (const auto answer = accept(kernel.template operator()<Widest>())) return *answer;
     return std::numeric_limits<double>::quiet_NaN();
   }
 
@@ -106,7 +106,8 @@ class Archimedean final : public ArchimedeanCopula {
     using std::isfinite;
     const Bounded<Real> answer = tail == Tail::lower ? exp(x) : -expm1(x);
     if (!isfinite(answer.error) || !(answer.error <= tolerance * answer.value)) return std::nullopt;
-    if (std::is_same_v<Real, double> && answer.value < std::numeric_limits<double>::min()) return std::nullopt;
+    // A subnormal double is the rounded value of a wider type.
+    if (!std::is_same_v<Real, Wide> && answer.value < std::numeric_limits<double>::min()) return std::nullopt;
     return static_cast<double>(answer.value);
   }
 

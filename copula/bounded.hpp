@@ -19,10 +19,12 @@ struct Bounded {
   Bounded(int exact) : value(exact), error(0) {}     // NOLINT: converts exactly
   Bounded(const Real& v, const Real& e) : value(v), error(e) {}
 
-  /// Relative error of one arithmetic operation, doubled so that the rounding of the bounds themselves is covered.
-  static Real operation() { return std::numeric_limits<Real>::epsilon(); }
-  /// Relative error of exp, log, expm1, log1p and sqrt; glibc documents at most 1 ulp for them in double.
-  static Real function() { return Real(2) * std::numeric_limits<Real>::epsilon(); }
+  /// Relative error of one arithmetic operation, half an ulp, and a little more for the rounding of the bounds
+  /// themselves.
+  static Real operation() { return Real(0.501) * std::numeric_limits<Real>::epsilon(); }
+  /// Relative error of exp, log, expm1, log1p: glibc documents at most 1 ulp in double and long double, MPFR half an
+  /// ulp.
+  static Real function() { return Real(1.001) * std::numeric_limits<Real>::epsilon(); }
   /// Absolute error of an operation whose result may be subnormal.
   static Real underflow() { return (std::numeric_limits<Real>::min)(); }
   static Real unknown() { return std::numeric_limits<Real>::infinity(); }

@@ -32,7 +32,7 @@ double debye_1_defect(double x) {
 double eulerian_root(int n) {
   // Newton from 0, right of every root, rises monotonically to the largest one. The polynomial is divided by n!.
   const Triangle<EulerianRule> table(n + 1, {});
-  const auto coefficients = table.row<Bounded<double>>(n);
+  const auto coefficients = table.row<Narrow>(n);
   double x = 0;
   for (int step = 0; step < 200; ++step) {
     double value = 0, slope = 0;

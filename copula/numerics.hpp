@@ -1,9 +1,10 @@
 #pragma once
-/// Cancellation-free building blocks, templates over the number type T (Bounded<double> or Bounded<Wide>).
+/// Cancellation-free building blocks, templates over the number type T (Narrow, Extended, Widest).
 
 #include <cmath>
 #include <mutex>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "copula/bounded.hpp"
@@ -29,11 +30,11 @@ template <class T>
   return a < b ? b + log1p(exp(a - b)) : a + log1p(exp(b - a));
 }
 
-/// log(u / v) for u, v > 0, with small relative error where u is near v (u - v is exact there) and no overflow.
+/// log(u / v) for u, v > 0 whose logarithms are at hand, with small relative error where u is near v (u - v is exact
+/// there).
 template <class T>
-[[nodiscard]] T log_ratio(double u, double v) {
-  if (u > 0.5 * v && u < 2.0 * v) return log1p((T(u) - T(v)) / T(v));
-  return log(T(u)) - log(T(v));
+[[nodiscard]] T log_ratio(double u, double v, const T& log_u, const T& log_v) {
+  return u > 0.5 * v && u < 2 * v ? log1p((T(u) - T(v)) / T(v)) : log_u - log_v;
 }
 
 /// log(1 + x) - x, x > -1, by the series of 2 atanh(x / (2 + x)) near 0, where the two terms cancel.
@@ -101,16 +102,21 @@ template <class T, class Rate>
 
 /// Coefficients c(n,k), 0 <= k < max(n,1), of a two-term recurrence; c(0,0) = c(1,0) = 1.
 /// Rule::entry<T>(n, k, same, left) gives c(n,k) from same = c(n-1,k) and left = c(n-1,k-1) (0 outside the triangle).
-/// Rows for double are built at once, those for Wide on first use; safe to share between threads.
+/// Rows for Narrow and Extended are built at once, those for Widest on first use; safe to share between threads.
 template <class Rule>
 class Triangle {
  public:
-  Triangle(int rows, Rule rule) : rows_(rows), rule_(std::move(rule)) { build(narrow_); }
+  Triangle(int rows, Rule rule) : rows_(rows), rule_(std::move(rule)) {
+    build(narrow_);
+    build(extended_);
+  }
 
   template <class T>
   [[nodiscard]] std::span<const T> row(int n) const {
-    if constexpr (std::is_same_v<T, Bounded<double>>) {
+    if constexpr (std::is_same_v<T, Narrow>) {
       return narrow_[static_cast<std::size_t>(n)];
+    } else if constexpr (std::is_same_v<T, Extended>) {
+      return extended_[static_cast<std::size_t>(n)];
     } else {
       std::call_once(once_, [this] { build(wide_); });
       return wide_[static_cast<std::size_t>(n)];
@@ -135,9 +141,27 @@ class Triangle {
 
   int rows_;
   Rule rule_;
-  std::vector<std::vector<Bounded<double>>> narrow_;
-  mutable std::vector<std::vector<Bounded<Wide>>> wide_;
+  std::vector<std::vector<Narrow>> narrow_;
+  std::vector<std::vector<Extended>> extended_;
+  mutable std::vector<std::vector<Widest>> wide_;
   mutable std::once_flag once_;
+};
+
+/// One value of Constants<T> for each number type, built at once: what a generator needs of its parameters alone.
+template <template <class> class Constants>
+class PerPrecision {
+ public:
+  template <class... Arguments>
+  explicit PerPrecision(const Arguments&... arguments)
+      : values_(Constants<Narrow>(arguments...), Constants<Extended>(arguments...), Constants<Widest>(arguments...)) {}
+
+  template <class T>
+  [[nodiscard]] const Constants<T>& get() const {
+    return std::get<Constants<T>>(values_);
+  }
+
+ private:
+  std::tuple<Constants<Narrow>, Constants<Extended>, Constants<Widest>> values_;
 };
 
 /// Eulerian numbers A(n,k) / n!, the coefficients of A_n(x) / n! (DLMF 26.14.8): positive, sum 1.
@@ -148,12 +172,12 @@ struct EulerianRule {
   }
 };
 
-/// log n! as a sum of logarithms.
-template <class T>
-[[nodiscard]] T log_factorial(int n) {
-  T sum(0.0);
-  for (int k = 2; k <= n; ++k) sum += log(T(k));
-  return sum;
+/// Partial sums: entry n is the sum of term(k) for 0 < k < n, T-valued; n entries 0..count.
+template <class T, class Term>
+[[nodiscard]] std::vector<T> cumulative(int count, const Term& term) {
+  std::vector<T> sums(2, T(0));
+  for (int k = 1; k < count; ++k) sums.push_back(sums.back() + term(T(k)));
+  return sums;
 }
 
 /// 1/4 - (1 - D_1(x)) / x with the first Debye function D_1(x) = (1/x) int_0^x t / (e^t - 1) dt: odd, x/36 near 0,

@@ -20,9 +20,22 @@
 
 namespace sklar::families::clayton {
 
+/// What depends on theta and the dimension alone.
+template <class T>
+struct Constants {
+  Constants(int dim, double parameter)
+      : theta(parameter),
+        inverse(T(1) / theta),
+        log_rising(cumulative<T>(dim + 2, [this](const T& k) { return log1p(k * theta); })) {}
+
+  T theta, inverse;
+  std::vector<T> log_rising;  // entry k: sum_{i<k} log(1 + i theta)
+};
+
 class Clayton {
  public:
-  explicit Clayton(double theta) : theta_(theta) {}
+  Clayton(int dim, double theta)
+      : theta_(theta), constants_(std::make_shared<const PerPrecision<Constants>>(dim, theta)) {}
 
   template <class T>
   T log_psi(const T& t) const {
@@ -40,7 +53,8 @@ class Clayton {
   T log_abs_dpsi(int k, const T& t) const {
     const T base = T(theta_) * t;
     if (base.value <= -1) return T(-std::numeric_limits<double>::infinity());
-    return log_rising<T>(k) - (T(k) + T(1) / T(theta_)) * log1p(base);
+    return constants<T>().log_rising[static_cast<std::size_t>(k)] -
+           exponent<T>(static_cast<std::size_t>(k)) * log1p(base);
   }
 
   template <class T>
@@ -53,15 +67,14 @@ class Clayton {
   template <class T>
   T log_conditional(std::span<const double> u) const {
     const auto given = u.first(u.size() - 1);
-    const T order(static_cast<int>(given.size()));
-    return -(order + T(1) / T(theta_)) * log1p_increment<T>(given, u.back());
+    return -exponent<T>(given.size()) * log1p_increment<T>(given, u.back());
   }
 
   // h = (1 + D/S)^-(j + 1/theta) with D = expm1(x_k), so D = S expm1(-log p / (j + 1/theta)) and -log v =
   // log1p(D)/theta.
   template <class T>
   T conditional_inverse(std::span<const double> given, double p) const {
-    const T y = -log(T(p)) / (T(static_cast<int>(given.size())) + T(1) / T(theta_));
+    const T y = -log(T(p)) / exponent<T>(given.size());
     return log1p(sum<T>(given) * expm1(y)) / T(theta_);
   }
 
@@ -81,12 +94,15 @@ class Clayton {
     return s;
   }
 
-  // sum_{i<k} log(1 + i theta)
   template <class T>
-  T log_rising(int k) const {
-    T total(0);
-    for (int i = 1; i < k; ++i) total += log1p(T(i) * T(theta_));
-    return total;
+  const Constants<T>& constants() const {
+    return constants_->template get<T>();
+  }
+
+  // k + 1/theta
+  template <class T>
+  T exponent(std::size_t k) const {
+    return T(static_cast<int>(k)) + constants<T>().inverse;
   }
 
   // log c = sum_{k<d} log1p(k theta) + sum x_i - d log1p(s) - [ (log1p(s) - s) + sum (expm1(x_i) - x_i) ] / theta,
@@ -101,23 +117,23 @@ class Clayton {
       excess += expm1_minus_x(x);
     }
     if (s.value + s.error <= -1) return T(-std::numeric_limits<double>::infinity());
-    const int d = static_cast<int>(u.size());
-    return log_rising<T>(d) + x_sum - T(d) * log1p(s) - (log1p_minus_x(s) + excess) / T(theta_);
+    const T d(static_cast<int>(u.size()));
+    return constants<T>().log_rising[u.size()] + x_sum - d * log1p(s) - (log1p_minus_x(s) + excess) / T(theta_);
   }
 
   template <class T>
   T log_density_scaled(std::span<const double> u, double smallest) const {
     T log_ratios(0);
-    const T rest = scaled_rest<T>(u, smallest, log_ratios);
-    const int d = static_cast<int>(u.size());
-    const T theta(theta_);
-    return log_rising<T>(d) - (T(1) + theta) * log_ratios - T(d - 1) * log(T(smallest)) -
-           (T(d) + T(1) / theta) * log1p(rest);
+    const T log_smallest = log(T(smallest));
+    const T rest = scaled_rest<T>(u, smallest, log_smallest, log_ratios);
+    const Constants<T>& c = constants<T>();
+    return c.log_rising[u.size()] - (T(1) + c.theta) * log_ratios - T(static_cast<int>(u.size()) - 1) * log_smallest -
+           exponent<T>(u.size()) * log1p(rest);
   }
 
   // S e^(-x_m) - 1 >= 0, theta > 0, m the smallest value (counted once); adds log(u_i / m) to log_ratios.
   template <class T>
-  T scaled_rest(std::span<const double> u, double smallest, T& log_ratios) const {
+  T scaled_rest(std::span<const double> u, double smallest, const T& log_smallest, T& log_ratios) const {
     T rest(0);
     bool skipped = false;
     for (const double value : u) {
@@ -125,9 +141,10 @@ class Clayton {
         skipped = true;
         continue;
       }
-      const T ratio = log_ratio<T>(value, smallest);
+      const T log_value = log(T(value));
+      const T ratio = log_ratio<T>(value, smallest, log_value, log_smallest);
       log_ratios += ratio;
-      rest -= exp(-T(theta_) * ratio) * expm1(-scaled<T>(value));
+      rest -= exp(-T(theta_) * ratio) * expm1(T(theta_) * log_value);
     }
     return rest;
   }
@@ -143,14 +160,16 @@ class Clayton {
       return ratio.value <= -1 ? T(-std::numeric_limits<double>::infinity()) : log1p(ratio);
     }
     const double smallest = *std::ranges::min_element(given);
+    const T log_smallest = log(T(smallest));
     T unused(0);
-    const T shift = -T(theta_) * log_ratio<T>(v, smallest);
-    const T weight = -expm1(-x) / (T(1) + scaled_rest<T>(given, smallest, unused));
+    const T shift = -T(theta_) * log_ratio<T>(v, smallest, log(T(v)), log_smallest);
+    const T weight = -expm1(-x) / (T(1) + scaled_rest<T>(given, smallest, log_smallest, unused));
     // D/S = weight e^shift; for shift > 1 weight is of order 1 and the exponential may be huge.
     return shift > T(1) ? shift + log(weight + exp(-shift)) : log1p(weight * exp(shift));
   }
 
   double theta_;
+  std::shared_ptr<const PerPrecision<Constants>> constants_;
 };
 
 inline FamilyInfo info() {
@@ -167,7 +186,7 @@ inline FamilyInfo info() {
       .examples = {{1e-3}, {0.5}, {2.0}, {20.0}, {200.0}, {-0.05}, {-0.3}, {-0.8}},
       .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
         if (theta[0] == 0) return std::make_shared<independence::Independence>(dim);
-        return std::make_shared<Archimedean<Clayton>>(dim, Clayton(theta[0]));
+        return std::make_shared<Archimedean<Clayton>>(dim, Clayton(dim, theta[0]));
       },
       .tau = [](const Theta& theta) { return 1 / (1 + 2 / theta[0]); },
       .theta_from_tau = [](double tau) { return Theta{2 * tau / (1 - tau)}; },

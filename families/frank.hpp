@@ -22,10 +22,30 @@
 
 namespace sklar::families::frank {
 
+/// What depends on theta and the dimension alone.
+template <class T>
+struct Constants {
+  Constants(int dim, double parameter)
+      : theta(parameter),
+        q(-expm1(-theta)),
+        tail(exp(-theta)),
+        upper_scale(expm1(theta)),
+        log_theta_by_q(log(theta / q)),
+        log_factorial(cumulative<T>(dim + 1, [](const T& k) { return log(k); })) {}
+
+  T theta, q;
+  T tail;         // e^-theta
+  T upper_scale;  // e^theta - 1
+  T log_theta_by_q;
+  std::vector<T> log_factorial;  // entry n: log (n-1)!
+};
+
 class Frank {
  public:
   Frank(int dim, double theta)
-      : theta_(theta), eulerian_(std::make_shared<const Triangle<EulerianRule>>(dim + 1, EulerianRule{})) {}
+      : constants_(std::make_shared<const PerPrecision<Constants>>(dim, theta)),
+        eulerian_(std::make_shared<const Triangle<EulerianRule>>(dim + 1, EulerianRule{})),
+        positive_(theta > 0) {}
 
   template <class T>
   T log_psi(const T& t) const {
@@ -34,25 +54,28 @@ class Frank {
 
   template <class T>
   T psi_inv(double u) const {
-    return -log_weight<T>(u);
+    return -weight<T>(u).log_value();
   }
 
   template <class T>
   T log_abs_dpsi(int k, const T& t) const {
     if (k == 0) return log_psi(t);
-    const T x = q<T>() * exp(-t);
-    const T complement = -expm1(-t) + exp(-T(theta_) - t);  // 1 - x
-    return log(x / T(theta_)) + log_eulerian(k - 1, x) - T(k) * log(complement);
+    const Constants<T>& c = constants<T>();
+    const T x = c.q * exp(-t);
+    const T complement = -expm1(-t) + exp(-c.theta - t);  // 1 - x
+    return -t - c.log_theta_by_q + log_eulerian(k - 1, x) - T(k) * log(complement);
   }
 
   template <class T>
   T log_density(std::span<const double> u) const {
     const double smallest = *std::ranges::min_element(u);
-    const Accumulated<T> sums = accumulate<T>(u, smallest);
+    const Product<T> product = multiply<T>(u, smallest);
+    const Constants<T>& c = constants<T>();
     const int d = static_cast<int>(u.size());
-    const T theta(theta_);
-    return T(d - 1) * log(theta / q<T>()) + log_eulerian(d - 1, sums.x) - T(d) * sums.log_complement -
-           theta * sums.distance;
+    T distance(0);  // sum (u_i - m) for theta > 0, sum u_i for theta < 0
+    for (const double value : u) distance += positive_ ? T(value) - T(smallest) : T(value);
+    return T(d - 1) * c.log_theta_by_q + log_eulerian(d - 1, product.x) - T(d) * product.log_complement -
+           c.theta * distance;
   }
 
   // log h = log a_k + log(A_(j-1)(x a_k) / A_(j-1)(x)) - j log(1 + x delta_k / (1-x)), j values given, x of those; for
@@ -60,16 +83,16 @@ class Frank {
   template <class T>
   T log_conditional(std::span<const double> u) const {
     const auto given = u.first(u.size() - 1);
-    const T delta = complement<T>(u.back());
-    if (given.size() == 1) return log_conditional_pair<T>(given[0], weight<T>(u.back()), delta);
-    return -Conditional<T>(*this, given).decrease(-log_weight<T>(u.back()), delta).first;
+    const Weight<T> last = weight<T>(u.back());
+    if (given.size() == 1) return log_conditional_pair<T>(given[0], last);
+    return -Conditional<T>(*this, given).decrease(-last.log_value(), last.complement).first;
   }
 
   template <class T>
   T conditional_inverse(std::span<const double> given, double p) const {
     if (given.size() == 1) {
       // a = p / (p + (1-p) e^(-theta u_1)), the quadratic's root in closed form.
-      const T rest = (T(1) - T(p)) * exp(-T(theta_) * T(given[0]));
+      const T rest = (T(1) - T(p)) * exp(-constants<T>().theta * T(given[0]));
       const T sum = T(p) + rest;
       return minus_log_value(T(p) / sum, rest / sum);
     }
@@ -82,80 +105,81 @@ class Frank {
 
  private:
   template <class T>
-  struct Accumulated {
-    T x;               // q prod a(u_i)
-    T log_complement;  // log(1-x) + theta m for theta > 0, log(1-x) for theta < 0
-    T distance;        // sum (u_i - m) for theta > 0, sum u_i for theta < 0
+  struct Weight {
+    T value;       // a(u)
+    T complement;  // 1 - a(u)
+
+    [[nodiscard]] T log_value() const { return complement < T(0.5) ? log1p(-complement) : log(value); }
   };
 
   template <class T>
-  T q() const {
-    return -expm1(-T(theta_));
-  }
+  struct Product {
+    T x;               // q prod a(u_i)
+    T log_complement;  // log(1-x) + theta m for theta > 0, log(1-x) for theta < 0
+  };
 
   template <class T>
-  T weight(double u) const {
-    return expm1(-T(theta_) * T(u)) / expm1(-T(theta_));
+  const Constants<T>& constants() const {
+    return constants_->template get<T>();
   }
 
-  // 1 - a(u)
+  // Each of a and 1 - a as a difference of exponentials where the two are apart, by expm1 where they are near each
+  // other.
   template <class T>
-  T complement(double u) const {
-    const T theta(theta_);
-    return exp(-theta * T(u)) * expm1(-theta * (T(1) - T(u))) / expm1(-theta);
-  }
-
-  template <class T>
-  T log_weight(double u) const {
-    const T delta = complement<T>(u);
-    return delta < T(0.5) ? log1p(-delta) : log(weight<T>(u));
+  Weight<T> weight(double u) const {
+    const Constants<T>& c = constants<T>();
+    const T e = exp(-c.theta * T(u));
+    const T lower = e < T(0.5) || e > T(2) ? T(1) - e : -expm1(-c.theta * T(u));
+    const T upper = e > c.tail + c.tail || e + e < c.tail ? e - c.tail : -e * expm1(-c.theta * (T(1) - T(u)));
+    return {lower / c.q, upper / c.q};
   }
 
   // -log u from a = a(u) and delta = 1 - a: u = -log(1 - q a)/theta with 1 - q a = e^-theta + q delta,
   // 1 - u = log(1 + expm1(theta) delta)/theta.
   template <class T>
   T minus_log_value(const T& a, const T& delta) const {
-    const T theta(theta_);
-    const T upper = log1p(expm1(theta) * delta) / theta;
+    const Constants<T>& c = constants<T>();
+    const T upper = log1p(c.upper_scale * delta) / c.theta;
     if (upper < T(0.5)) return -log1p(-upper);
-    const T x = q<T>() * a;
-    return -log(-(x < T(0.5) ? log1p(-x) : log(exp(-theta) + q<T>() * delta)) / theta);
+    const T x = c.q * a;
+    return -log(-(x < T(0.5) ? log1p(-x) : log(c.tail + c.q * delta)) / c.theta);
   }
 
   // log A_n(x), A_0 = A_1 = 1; the table holds A_n / n!.
   template <class T>
   T log_eulerian(int n, const T& x) const {
     if (n < 2) return T(0);
-    return log_factorial<T>(n) + log(polynomial(eulerian_->template row<T>(n), x));
+    return constants<T>().log_factorial[static_cast<std::size_t>(n) + 1] +
+           log(polynomial(eulerian_->template row<T>(n), x));
   }
 
   template <class T>
-  Accumulated<T> accumulate(std::span<const double> u, double smallest) const {
-    const T theta(theta_);
-    const bool positive = theta_ > 0;
-    T others(1), log_others(0), distance(positive ? 0.0 : smallest);
+  Product<T> multiply(std::span<const double> u, double smallest) const {
+    const Constants<T>& c = constants<T>();
+    T others(1), complement(0);  // of the product over i != m
     bool skipped = false;
     for (const double value : u) {
       if (value == smallest && !skipped) {
         skipped = true;
         continue;
       }
-      log_others += log_weight<T>(value);
-      others *= weight<T>(value);
-      distance += positive ? T(value) - T(smallest) : T(value);
+      const Weight<T> a = weight<T>(value);
+      complement += others * a.complement;
+      others *= a.value;
     }
-    const T x = q<T>() * weight<T>(smallest) * others;
-    if (!positive) return {x, log1p(-x), distance};
-    return {x, log1p(expm1(theta * T(smallest)) * -expm1(log_others)), distance};
+    const T x = c.q * weight<T>(smallest).value * others;
+    if (!positive_) return {x, log1p(-x)};
+    return {x, log1p(expm1(c.theta * T(smallest)) * complement)};
   }
 
   template <class T>
-  T log_conditional_pair(double given, const T& a, const T& delta) const {
-    const T rest = exp(-T(theta_) * T(given));  // 1 - x
-    const T x = -expm1(-T(theta_) * T(given));
-    const T sum = theta_ > 0 ? rest + x * delta : T(1) - x * a;
-    const T upper = delta / sum;
-    return upper < T(0.5) ? log1p(-upper) : log(a * rest / sum);
+  T log_conditional_pair(double given, const Weight<T>& a) const {
+    const Constants<T>& c = constants<T>();
+    const T rest = exp(-c.theta * T(given));  // 1 - x
+    const T x = -expm1(-c.theta * T(given));
+    const T sum = positive_ ? rest + x * a.complement : T(1) - x * a.value;
+    const T upper = a.complement / sum;
+    return upper < T(0.5) ? log1p(-upper) : log(a.value * rest / sum);
   }
 
   // -log h as a function of s = -log a of the next coordinate, j >= 2 values given.
@@ -165,9 +189,10 @@ class Frank {
     Conditional(const Frank& frank, std::span<const double> given)
         : order_(static_cast<int>(given.size())), table_(frank.eulerian_->template row<T>(order_ - 1)) {
       const double smallest = *std::ranges::min_element(given);
-      const Accumulated<T> sums = frank.accumulate<T>(given, smallest);
-      x_ = sums.x;
-      odds_ = frank.theta_ > 0 ? x_ * exp(T(frank.theta_) * T(smallest) - sums.log_complement) : x_ / (T(1) - x_);
+      const Product<T> product = frank.multiply<T>(given, smallest);
+      x_ = product.x;
+      const T shift = frank.positive_ ? frank.constants<T>().theta * T(smallest) : T(0);
+      odds_ = x_ * exp(shift - product.log_complement);
       polynomial_ = polynomial(table_, x_);
     }
 
@@ -197,8 +222,9 @@ class Frank {
     T x_, odds_, polynomial_;  // x, x/(1-x), A_(j-1)(x)/(j-1)!
   };
 
-  double theta_;
+  std::shared_ptr<const PerPrecision<Constants>> constants_;
   std::shared_ptr<const Triangle<EulerianRule>> eulerian_;
+  bool positive_;
 };
 
 inline double theta_from_tau(double tau) {

@@ -33,10 +33,22 @@ struct Rule {
   }
 };
 
+/// What depends on theta and the dimension alone.
+template <class T>
+struct Constants {
+  Constants(int dim, double parameter)
+      : theta(parameter), log_scale(cumulative<T>(dim + 2, [this](const T& k) { return log(theta * k); })) {}
+
+  T theta;
+  std::vector<T> log_scale;  // entry n: log( theta^(n-1) (n-1)! )
+};
+
 class Gumbel {
  public:
   Gumbel(int dim, double theta)
-      : theta_(theta), coefficients_(std::make_shared<const Triangle<Rule>>(dim + 2, Rule{theta})) {}
+      : theta_(theta),
+        constants_(std::make_shared<const PerPrecision<Constants>>(dim, theta)),
+        coefficients_(std::make_shared<const Triangle<Rule>>(dim + 2, Rule{theta})) {}
 
   template <class T>
   T log_psi(const T& t) const {
@@ -98,7 +110,8 @@ class Gumbel {
   template <class T>
   Accumulated<T> accumulate(std::span<const double> u) const {
     const double smallest = *std::ranges::min_element(u);
-    const T largest = -log(T(smallest));
+    const T log_smallest = log(T(smallest));
+    const T largest = -log_smallest;
     T others(0), log_ratios(0), powers(0);
     bool skipped = false;
     for (const double value : u) {
@@ -106,19 +119,15 @@ class Gumbel {
         skipped = true;
         continue;
       }
-      const T ratio = log_ratio_of_logs<T>(value, smallest, largest);
-      others += -log(T(value));
+      const T log_value = log(T(value));
+      // log(x_i / x_m) by the difference of the two where they are near each other.
+      const T difference = log_ratio<T>(value, smallest, log_value, log_smallest) / largest;
+      const T ratio = difference < T(0.5) ? log1p(-difference) : log(log_value / log_smallest);
+      others -= log_value;
       log_ratios += ratio;
       powers += exp(T(theta_) * ratio);
     }
     return {largest, others, log_ratios, log1p(powers) / T(theta_)};
-  }
-
-  // log( log u / log m ), x_m = -log m: by the difference of the logarithms where the two are near each other.
-  template <class T>
-  static T log_ratio_of_logs(double u, double m, const T& x_m) {
-    const T difference = log_ratio<T>(u, m) / x_m;  // 1 - x/x_m
-    return difference < T(0.5) ? log1p(-difference) : log(-log(T(u)) / x_m);
   }
 
   // log Q_n(s); terms are powers of s or of 1/s, whichever is below 1.
@@ -126,8 +135,8 @@ class Gumbel {
   T log_q(int n, const T& s) const {
     const auto row = coefficients_->template row<T>(n);
     T sum = s < T(1) ? polynomial(row, s) : reversed_polynomial(row, T(1) / s);
-    T scale = T(n - 1) * log(T(theta_)) + log_factorial<T>(n - 1);
-    return scale + log(sum) - (s < T(1) ? T(n - 1) * log(s) : T(0));
+    const T& log_scale = constants_->template get<T>().log_scale[static_cast<std::size_t>(n)];
+    return log_scale + log(sum) - (s < T(1) ? T(n - 1) * log(s) : T(0));
   }
 
   template <class T>
@@ -202,6 +211,7 @@ class Gumbel {
   };
 
   double theta_;
+  std::shared_ptr<const PerPrecision<Constants>> constants_;
   std::shared_ptr<const Triangle<Rule>> coefficients_;
 };
 
