@@ -1,0 +1,37 @@
+#include "brdf/data/tabulate.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <stdexcept>
+
+#include "brdf/geometry/coordinates.hpp"
+
+namespace sklar::brdf {
+
+MeasuredTable tabulate(const Brdf& model, std::string name, Provenance provenance) {
+  if (!model.traits().reciprocal || !model.traits().isotropic) {
+    throw std::invalid_argument("tabulate: the model must be reciprocal and isotropic");
+  }
+  MeasuredTable table{.name = std::move(name), .provenance = provenance, .report = {}, .values = {}, .valid = {}};
+  table.valid.assign(Grid::cells, 0);
+  for (std::vector<double>& plane : table.values) plane.assign(Grid::cells, 0.0);
+  tbb::parallel_for(0, Grid::theta_h, [&](int i) {
+    for (int j = 0; j < Grid::theta_d; ++j) {
+      for (int k = 0; k < Grid::phi_d; ++k) {
+        const DirectionPair pair =
+            directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+        if (!(pair.wi.z() > 0 && pair.wo.z() > 0)) continue;
+        const auto cell = static_cast<std::size_t>(Grid::index(i, j, k));
+        const Rgb value = model.eval(pair.wo, pair.wi);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          table.values[channel][cell] = value[static_cast<int>(channel)];
+        }
+        table.valid[cell] = 1;
+      }
+    }
+  });
+  table.report.mirror_asymmetry = mirror_asymmetry(table);
+  return table;
+}
+
+}  // namespace sklar::brdf
