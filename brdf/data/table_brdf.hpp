@@ -1,10 +1,17 @@
 #pragma once
 /// A measured table read between its cell centres.
 
+#include "brdf/data/interpolation.hpp"
 #include "brdf/data/measured_table.hpp"
 #include "brdf/geometry/coordinates.hpp"
 
 namespace sklar::brdf {
+
+/// Where coordinates lie between the cell centres of Grid, axis by axis.
+struct CellPosition {
+  Between theta_h, theta_d, phi_d;
+};
+[[nodiscard]] CellPosition cell_position(const HalfDifference& coordinates);
 
 /// Trilinear interpolation in (90 sqrt(theta_h / 90 deg), theta_d, phi_d) as docs/conventions.md pins it: a cell's
 /// value stands at its centre, phi_d is periodic, edges are clamped, masked cells count as 0.
