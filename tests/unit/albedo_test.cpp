@@ -1,0 +1,68 @@
+#include "brdf/study/albedo.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "tests/support/function_brdf.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST(Albedo, LambertIsItsReflectance) {
+  constexpr double kRounding = 1e-12;  ///< relative, of a sum of 8192 terms
+  const AlbedoCurve curve = directional_albedo(test::lambert({0.2, 0.5, 1}));
+  ASSERT_EQ(curve.albedo.rows(), 90);
+  EXPECT_LT((curve.albedo.col(0) / 0.2 - 1).abs().maxCoeff(), kRounding);
+  EXPECT_LT((curve.albedo.col(2) - 1).abs().maxCoeff(), kRounding);
+}
+
+// The reference has 36 times the nodes; midpoints in phi_h and a product rule of another order share no nodes with it.
+TEST(Albedo, GgxAgreesWithAFineReference) {
+  constexpr double kStated = 1e-7;         ///< relative, up to 85 degrees
+  constexpr double kStatedGrazing = 3e-6;  ///< at 88 degrees
+  const Eigen::ArrayXd angles = Eigen::ArrayXd{{0, 30, 60, 80, 85, 88}} * kDegree;
+  for (const double alpha : {0.005, 0.02, 0.1, 0.5, 1.0}) {
+    const auto brdf = test::mirror_ggx(alpha);
+    const RgbRows fine = directional_albedo(brdf, angles, {.polar = 150, .azimuth = 2001}).albedo;
+    const Eigen::ArrayXd error = (directional_albedo(brdf, angles).albedo.col(0) / fine.col(0) - 1).abs();
+    EXPECT_LT(error.head(5).maxCoeff(), kStated) << alpha;
+    EXPECT_LT(error(5), kStatedGrazing) << alpha;
+  }
+}
+
+// Brute force in the angles of wi, a rule with nothing in common with the half vector's.
+TEST(Albedo, GgxAgreesWithBruteForce) {
+  constexpr double kMidpoint = 2e-5;  ///< relative error of the 1000 x 1000 midpoint rule
+  const auto brdf = test::mirror_ggx(0.3);
+  const double theta_o = 50 * kDegree;
+  const Vec3 wo(std::sin(theta_o), 0, std::cos(theta_o));
+  constexpr int kSteps = 1000;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double theta = (i + 0.5) / kSteps * std::numbers::pi / 2;
+    for (int k = 0; k < kSteps; ++k) {
+      const double phi = (k + 0.5) / kSteps * std::numbers::pi;
+      const Vec3 wi(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      sum += brdf.eval(wo, wi)[0] * std::cos(theta) * std::sin(theta);
+    }
+  }
+  sum *= 2 * (std::numbers::pi / kSteps) * (std::numbers::pi / 2 / kSteps);
+  const double albedo = directional_albedo(brdf, Eigen::ArrayXd::Constant(1, theta_o)).albedo(0, 0);
+  EXPECT_NEAR(albedo / sum, 1, kMidpoint);
+}
+
+TEST(Albedo, RefusesAnisotropyAndTheHorizon) {
+  const test::FunctionBrdf brushed([](const Vec3&, const Vec3&) -> Rgb { return Rgb::Zero(); },
+                                   {.reciprocal = true, .isotropic = false});
+  EXPECT_THROW((void)directional_albedo(brushed), std::invalid_argument);
+  EXPECT_THROW((void)directional_albedo(test::lambert(Rgb::Ones()), Eigen::ArrayXd::Constant(1, 90 * kDegree)),
+               std::domain_error);
+}
+
+}  // namespace
+}  // namespace sklar::brdf
