@@ -1,5 +1,7 @@
 #include "copula/copula.hpp"
 
+#include <cmath>
+
 #include "copula/error.hpp"
 
 namespace sklar {
@@ -9,6 +11,11 @@ namespace {
 void require_points(const char* function, const PointsRef& u, Index lowest, Index highest) {
   require_columns(function, "u", u.cols(), lowest, highest);
   require_unit_cube(function, "u", u);
+}
+
+/// Eigen's own exp stays within the normal numbers: 5.6e-309 for -inf, 1.8e308 for inf.
+Column exponential(const Column& x) {
+  return x.unaryExpr([](double value) { return std::exp(value); });
 }
 
 }  // namespace
@@ -25,7 +32,7 @@ Column Copula::log_pdf(const PointsRef& u) const {
 }
 
 Column Copula::pdf(const PointsRef& u) const {
-  return log_pdf(u).exp();
+  return exponential(log_pdf(u));
 }
 
 Column Copula::log_cdf(const PointsRef& u) const {
@@ -36,7 +43,7 @@ Column Copula::log_cdf(const PointsRef& u) const {
 }
 
 Column Copula::cdf(const PointsRef& u) const {
-  return log_cdf(u).exp();
+  return exponential(log_cdf(u));
 }
 
 Column Copula::h(const PointsRef& u) const {
