@@ -1,0 +1,33 @@
+#pragma once
+/// A table of masses seen as a histogram: what least squares fits (paper Eqs. 9 to 12 and 17).
+
+#include <span>
+
+#include "copula/types.hpp"
+
+namespace sklar {
+
+/// n cells. Equation numbers are the paper's.
+struct CellTable {
+  Points u;       ///< n x d in [0,1]: the margins' cdf at the centre of the cell, F_k (Eq. 17)
+  Column mass;    ///< b, sum 1 (Eq. 9)
+  Column margin;  ///< g, the product of the margins' masses f_k (Eqs. 11, 17)
+  Column weight;  ///< weight of the cell in the sum of squares, >= 0; none for one each
+};
+
+/// The cells of a full d-dimensional table: masses normalised to sum 1, margins by summation, their cdf linear within a
+/// bin, so that at its centre it is what lies below and half of the bin.
+/// @param masses  one value a cell, >= 0, not all 0, of any scale; the last index runs fastest.
+/// @param shape   bins along each of d >= 2 axes, each >= 1.
+/// @throws std::invalid_argument (shape, all 0), std::domain_error naming the first mass at fault.
+[[nodiscard]] CellTable cell_table(const ColumnRef& masses, std::span<const Index> shape);
+
+/// The cells of points counted into bins^d equal cells of the unit cube.
+/// @param u        n x d in [0,1], d >= 2. @param weights n, or none for one each.
+/// @param bins     along each axis; at most kMostCells cells in all.
+/// @throws std::invalid_argument (shapes, bins, all weights 0), std::domain_error (an entry of u or weights).
+[[nodiscard]] CellTable count_cells(const PointsRef& u, const ColumnRef& weights, Index bins);
+
+inline constexpr Index kMostCells = Index{1} << 24;
+
+}  // namespace sklar

@@ -1,0 +1,82 @@
+#pragma once
+/// Fitting the parameters of a family: weighted maximum likelihood (paper Eq. 16), weighted least squares on cell
+/// masses (paper Eq. 17), inversion of Kendall's tau. The margins come first (pseudo_observations, EmpiricalMarginal,
+/// cell_table), the dependence parameters second.
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "copula/family.hpp"
+#include "copula/inference/cells.hpp"
+
+namespace sklar {
+
+enum class FitMethod { maximum_likelihood, least_squares, tau_inversion };
+
+enum class FitStatus {
+  converged,
+  at_bound,         ///< the best parameter is at an end of the domain, or of the range searched towards infinity
+  max_evaluations,  ///< the best point seen within FitOptions::max_evaluations
+  failed            ///< no parameter tried gives every row a finite density; message says why
+};
+
+[[nodiscard]] std::string_view to_text(FitMethod method);  ///< "ml", "ls", "tau"
+[[nodiscard]] std::string_view to_text(FitStatus status);  ///< "converged", "at_bound", ...
+
+struct FitOptions {
+  double tolerance = 1e-7;      ///< of the search scale z = atanh(tau); its sampling error is about 0.7/sqrt(n)
+  int max_evaluations = 300;    ///< of the objective over all rows
+  Index start_rows = 2000;      ///< the search starts from a fixed subset of this many rows (cells: ten times as many)
+  Index bins = 16;              ///< bins an axis of fit() by least squares, which counts the rows into bins^d cells
+  bool standard_errors = true;  ///< they cost a few evaluations of the likelihood
+  bool parallel = true;         ///< over chunks of rows; the result does not depend on it
+};
+
+/// Every number that a method does not give is NaN. Weights count as multiplicity: a row of weight 2 is two rows. Their
+/// scale does not move theta; it scales log_likelihood and the information behind standard_error and aic.
+struct FitResult {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::string family;  ///< FamilyInfo::name
+  FitMethod method = FitMethod::maximum_likelihood;
+  Theta theta = {};               ///< the best seen, admissible in the dimension of the data
+  double tau = kNone;             ///< Kendall's tau of any pair at theta
+  double objective = kNone;       ///< what was minimised: -log_likelihood, the sum of squares, |tau - tau of data|
+  double log_likelihood = kNone;  ///< sum w_i log c(u_i; theta); -inf if nonfinite > 0
+  double aic = kNone;             ///< 2k - 2 log_likelihood
+  double bic = kNone;             ///< k log(sum w_i) - 2 log_likelihood
+  std::vector<double> standard_error = {};  ///< one a parameter, from the observed information; see standard_errors
+  FitStatus status = FitStatus::failed;
+  int evaluations = 0;       ///< of the objective over all rows
+  Index nonfinite = 0;       ///< rows of positive weight whose density at theta is 0 or not finite
+  std::string message = {};  ///< empty if converged
+};
+
+/// Maximises sum w_i log c(u_i; theta) (paper Eq. 16; its unknown n is sum w_i). One parameter: from the inverse of
+/// Kendall's tau, O(n d) an evaluation, about ten evaluations.
+/// @param u        n x d strictly in (0,1), n >= 2, d >= 2. @param weights n values >= 0, or none for one each.
+/// @return         standard_error is NaN at a bound and where the likelihood has no curvature.
+/// @throws std::invalid_argument (shapes, all weights zero), std::domain_error naming the entry of u or weights.
+[[nodiscard]] FitResult fit_maximum_likelihood(const FamilyInfo& family, const PointsRef& u,
+                                               const ColumnRef& weights = Column(), const FitOptions& options = {});
+
+/// theta with the (weighted) Kendall's tau of the data, the mean over pairs for d > 2. A tau outside the attainable
+/// range gives the nearest end and status at_bound. A family without parameters has nothing to invert and converges.
+/// @throws as fit_maximum_likelihood; std::invalid_argument also for a family without theta_from_tau.
+[[nodiscard]] FitResult fit_tau_inversion(const FamilyInfo& family, const PointsRef& u,
+                                          const ColumnRef& weights = Column(), const FitOptions& options = {});
+
+/// Minimises sum w_i (b_i - c(u_i; theta) g_i)^2 over cells (paper Eq. 17). The sum may have several minima: a lattice
+/// of parameters is compared on a subset of the cells first. log_likelihood is sum b_i log c(u_i; theta), of one
+/// observation: the number of observations is unknown, so there is no aic, bic or standard error.
+/// @throws std::invalid_argument, std::domain_error for a table that cell_table would not make.
+[[nodiscard]] FitResult fit_least_squares(const FamilyInfo& family, const CellTable& cells,
+                                          const FitOptions& options = {});
+
+/// Any method on points. Least squares counts them into cells (count_cells) and adds the likelihood of the points.
+[[nodiscard]] FitResult fit(const FamilyInfo& family, FitMethod method, const PointsRef& u,
+                            const ColumnRef& weights = Column(), const FitOptions& options = {});
+
+}  // namespace sklar

@@ -1,0 +1,60 @@
+#pragma once
+/// The search common to the methods of fit.hpp; internal to them.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "copula/inference/fit.hpp"
+#include "copula/inference/minimise.hpp"
+#include "copula/inference/objective.hpp"
+#include "copula/inference/parameter_scale.hpp"
+
+namespace sklar {
+
+using CopulaObjective = std::function<Evaluation(const Copula&)>;
+
+/// Sum of the weights; no weights means one each.
+[[nodiscard]] double total_weight(const ColumnRef& weights, Index rows);
+
+/// Searches the parameters of one family in one dimension and writes down what it finds. Keeps a reference to the
+/// family.
+class Fitter {
+ public:
+  /// @throws std::invalid_argument for options out of range.
+  Fitter(const FamilyInfo& family, FitMethod method, int dim, const FitOptions& options);
+
+  [[nodiscard]] const ParameterScale& scale() const { return scale_; }
+  [[nodiscard]] Chunking chunking() const { return {.parallel = options_.parallel}; }
+  [[nodiscard]] FitResult& result() { return result_; }
+
+  /// Precondition: theta admissible.
+  [[nodiscard]] CopulaPtr copula(const Theta& theta) const { return family_.make_unchecked(dim_, theta); }
+
+  /// The best of ParameterScale::lattice(); for no parameters the empty z.
+  [[nodiscard]] std::vector<double> best_of_lattice(const CopulaObjective& objective) const;
+
+  /// Minimises from start and records parameters, status, evaluations and message.
+  void search(const CopulaObjective& objective, const std::vector<double>& start, double step);
+
+  void set_theta(Theta theta);
+
+  /// Records likelihood and criteria at the parameters found, and standard errors of a converged search.
+  void add_likelihood(const PointsRef& u, const ColumnRef& weights);
+  void add_standard_errors(const PointsRef& u, const ColumnRef& weights);
+
+ private:
+  [[nodiscard]] std::vector<double> best_of_lattice(const Objective& objective) const;
+  void judge(const Minimum& minimum);
+  void fail(std::string message);
+  [[nodiscard]] std::vector<double> theta_steps(double z_step) const;
+
+  const FamilyInfo& family_;
+  int dim_;
+  FitOptions options_;
+  ParameterScale scale_;
+  FitResult result_;
+  std::vector<double> z_;
+};
+
+}  // namespace sklar

@@ -1,0 +1,78 @@
+#include "copula/inference/minimise.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <memory>
+
+namespace sklar {
+namespace {
+
+using Optimiser = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
+
+/// What NLopt's callback needs. C code must not see an exception: it is kept, and the search told to stop.
+struct Search {
+  const Objective& objective;
+  nlopt_opt optimiser;
+  Minimum result = {};
+  std::exception_ptr thrown = {};
+  double last = std::numeric_limits<double>::max();
+
+  void evaluate(const std::vector<double>& z) {
+    const Evaluation evaluation = objective(z);
+    if (result.evaluations++ == 0 || evaluation.better_than(result.best)) {
+      result.best = evaluation;
+      result.z = z;
+    }
+    last = evaluation.value;
+  }
+};
+
+double callback(unsigned n, const double* z, double*, void* data) noexcept {
+  Search& search = *static_cast<Search*>(data);
+  try {
+    search.evaluate(std::vector<double>(z, z + n));
+  } catch (...) {
+    search.thrown = std::current_exception();
+    nlopt_force_stop(search.optimiser);
+  }
+  return search.last;
+}
+
+MinimiseStop stop_reason(nlopt_result code) {
+  if (code == NLOPT_MAXEVAL_REACHED) return MinimiseStop::max_evaluations;
+  if (code > 0 || code == NLOPT_ROUNDOFF_LIMITED) return MinimiseStop::tolerance;
+  return MinimiseStop::failed;
+}
+
+}  // namespace
+
+Minimum minimise(const Objective& objective, const std::vector<double>& start, const Box& box,
+                 const MinimiseOptions& options) {
+  const auto n = static_cast<unsigned>(start.size());
+  Optimiser optimiser(n > 0 ? nlopt_create(NLOPT_LN_BOBYQA, n) : nullptr, &nlopt_destroy);
+  Search search{.objective = objective, .optimiser = optimiser.get()};
+  if (n == 0) {
+    search.evaluate(start);
+    return search.result;
+  }
+  nlopt_set_min_objective(optimiser.get(), callback, &search);
+  nlopt_set_lower_bounds(optimiser.get(), box.lower.data());
+  nlopt_set_upper_bounds(optimiser.get(), box.upper.data());
+  std::vector<double> step(n);
+  for (unsigned i = 0; i < n; ++i) step[i] = std::min(options.step, 0.25 * (box.upper[i] - box.lower[i]));
+  nlopt_set_initial_step(optimiser.get(), step.data());
+  nlopt_set_xtol_abs1(optimiser.get(), options.tolerance);
+  nlopt_set_maxeval(optimiser.get(), options.max_evaluations);
+  std::vector<double> z = start;
+  double value = 0;
+  const nlopt_result code = nlopt_optimize(optimiser.get(), z.data(), &value);
+  if (search.thrown) std::rethrow_exception(search.thrown);
+  search.result.stop = stop_reason(code);
+  if (search.result.evaluations == 0) search.evaluate(start);
+  return search.result;
+}
+
+}  // namespace sklar

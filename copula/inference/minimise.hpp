@@ -1,0 +1,50 @@
+#pragma once
+/// Minimisation without derivatives within bounds. The one place that uses NLopt.
+
+#include <functional>
+#include <vector>
+
+#include "copula/types.hpp"
+
+namespace sklar {
+
+/// A value to be minimised. What has fewer broken rows is better, then what has the smaller value.
+struct Evaluation {
+  double value = 0;     ///< finite
+  Index nonfinite = 0;  ///< rows that could not be evaluated, already punished in value
+
+  [[nodiscard]] bool better_than(const Evaluation& other) const noexcept {
+    return nonfinite != other.nonfinite ? nonfinite < other.nonfinite : value < other.value;
+  }
+};
+
+using Objective = std::function<Evaluation(const std::vector<double>& z)>;
+
+struct Box {
+  std::vector<double> lower;
+  std::vector<double> upper;
+};
+
+struct MinimiseOptions {
+  double step;          ///< first step along each coordinate
+  double tolerance;     ///< stop when the steps are smaller
+  int max_evaluations;  ///< >= 1
+};
+
+enum class MinimiseStop { tolerance, max_evaluations, failed };
+
+struct Minimum {
+  std::vector<double> z;  ///< the best point evaluated, whatever stopped the search
+  Evaluation best;
+  int evaluations = 0;
+  MinimiseStop stop = MinimiseStop::tolerance;
+};
+
+/// Local minimum by quadratic models in a trust region (BOBYQA, Powell 2009; in one dimension too, where it takes about
+/// ten evaluations from a good start). Rounding that stops progress counts as reaching the tolerance.
+/// @param start   inside the box. For no coordinates the objective is evaluated once.
+/// @throws what the objective throws.
+[[nodiscard]] Minimum minimise(const Objective& objective, const std::vector<double>& start, const Box& box,
+                               const MinimiseOptions& options);
+
+}  // namespace sklar
