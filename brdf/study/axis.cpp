@@ -1,0 +1,126 @@
+#include "brdf/study/axis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "copula/error.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+double scaled(Scale scale, double value) {
+  switch (scale) {
+    case Scale::logarithmic:
+      return value > 0 ? std::log10(value) : kNan;
+    case Scale::square_root:
+      return value >= 0 ? std::sqrt(value) : kNan;
+    case Scale::linear:
+      break;
+  }
+  return value;
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that cuts the range into at most `parts`.
+double tick_step(double range, int parts) {
+  const double rough = range / parts;
+  const double decade = std::pow(10, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * decade >= rough * (1 - 1e-9)) return factor * decade;
+  }
+  return 10 * decade;
+}
+
+constexpr int kParts = 6;
+
+}  // namespace
+
+Axis fitted(Axis axis, const std::vector<double>& values) {
+  if (axis.low != axis.high) return axis;
+  axis.low = std::numeric_limits<double>::infinity();
+  axis.high = -axis.low;
+  for (const double value : values) {
+    if (!std::isfinite(scaled(axis.scale, value))) continue;
+    axis.low = std::min(axis.low, value);
+    axis.high = std::max(axis.high, value);
+  }
+  if (axis.low > axis.high) axis.low = axis.high = axis.scale == Scale::logarithmic ? 1 : 0;
+  if (axis.low == axis.high) {
+    const double value = axis.low;
+    axis.low = axis.scale == Scale::linear ? value - 0.5 : value / 2;
+    axis.high = axis.scale == Scale::logarithmic ? value * 2 : value + 0.5;
+  }
+  if (axis.scale == Scale::linear) {
+    const double step = tick_step(axis.high - axis.low, kParts);
+    axis.low = std::floor(axis.low / step + 1e-9) * step;
+    axis.high = std::ceil(axis.high / step - 1e-9) * step;
+  }
+  return axis;
+}
+
+double axis_position(const Axis& axis, double value) {
+  const double low = scaled(axis.scale, axis.low);
+  return (scaled(axis.scale, value) - low) / (scaled(axis.scale, axis.high) - low);
+}
+
+std::vector<Tick> axis_ticks(const Axis& axis) {
+  std::vector<Tick> ticks;
+  const auto add = [&](double value, std::string text) {
+    const double position = axis_position(axis, value);
+    if (position >= -1e-9 && position <= 1 + 1e-9) ticks.push_back({position, std::move(text)});
+  };
+  if (!axis.ticks.empty()) {
+    for (const double value : axis.ticks) add(value, to_text(value));
+  } else if (axis.scale == Scale::logarithmic) {
+    const int first = static_cast<int>(std::ceil(std::log10(axis.low) - 1e-9));
+    const int last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
+    const int step = std::max(1, (last - first + kParts - 1) / kParts);
+    for (int power = first; power <= last; power += step)
+      add(std::pow(10, power), "10^{" + std::to_string(power) + "}");
+  } else {
+    const double step = tick_step(axis.high - axis.low, kParts);
+    const auto first = static_cast<long long>(std::ceil(axis.low / step - 1e-9));
+    const auto last = static_cast<long long>(std::floor(axis.high / step + 1e-9));
+    // A step below 1 is 1 / inverse: the quotient, unlike the product, is the double nearest to the decimal.
+    const double inverse = std::round(1 / step);
+    for (long long n = first; n <= last; ++n) {
+      const auto count = static_cast<double>(n);
+      const double value = step < 1 && std::abs(inverse * step - 1) < 1e-9 ? count / inverse : count * step;
+      add(value, to_text(value));
+    }
+  }
+  return ticks;
+}
+
+Colour viridis(double share) {
+  static constexpr std::array<std::array<double, 3>, 9> kAnchors{{{68, 1, 84},
+                                                                  {72, 40, 120},
+                                                                  {59, 82, 139},
+                                                                  {44, 114, 142},
+                                                                  {33, 145, 140},
+                                                                  {40, 174, 128},
+                                                                  {94, 201, 98},
+                                                                  {173, 220, 48},
+                                                                  {253, 231, 37}}};
+  const double position = share > 0 ? std::min(share, 1.0) * 8 : 0.0;
+  const auto low = static_cast<std::size_t>(std::min(position, 7.0));
+  const double t = position - static_cast<double>(low);
+  const auto at = [&](std::size_t c) { return ((1 - t) * kAnchors[low][c] + t * kAnchors[low + 1][c]) / 255; };
+  return {at(0), at(1), at(2)};
+}
+
+Colour series_colour(std::size_t index) {
+  static constexpr std::array<Colour, 7> kColours{{{0.000, 0.447, 0.698},
+                                                   {0.835, 0.369, 0.000},
+                                                   {0.000, 0.620, 0.451},
+                                                   {0.800, 0.475, 0.655},
+                                                   {0.902, 0.624, 0.000},
+                                                   {0.337, 0.706, 0.914},
+                                                   {0.498, 0.235, 0.553}}};
+  return kColours[index % kColours.size()];
+}
+
+}  // namespace sklar::brdf

@@ -1,0 +1,301 @@
+#include "brdf/study/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "brdf/study/canvas.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+constexpr Colour kInk{0.13, 0.13, 0.13};
+constexpr Colour kGrid{0.90, 0.90, 0.90};
+constexpr Colour kEmpty{0.88, 0.88, 0.88};
+constexpr double kMargin = 14;
+constexpr double kBar = 12;  ///< thickness of a colour bar
+const Font kTitle{.size = 16, .bold = true};
+const Font kHeading{.size = 13, .bold = true};
+const Font kLabel{.size = 12};
+const Font kTickFont{.size = 11};
+
+double height_of(const std::string& text, const Font& font) {
+  return text.empty() ? 0 : font.size + 10;
+}
+
+double widest(Canvas& canvas, const std::vector<Tick>& ticks) {
+  double width = 0;
+  for (const Tick& tick : ticks) width = std::max(width, canvas.text_width(tick.text, kTickFont));
+  return width;
+}
+
+/// The box of the data inside a panel, after title, labels and ticks have their room.
+Box data_box(Canvas& canvas, const Box& panel, const std::string& title, const Axis& x, const Axis& y, double right) {
+  const double left = kLabel.size + 14 + widest(canvas, axis_ticks(y));
+  const double top = height_of(title, kHeading);
+  const double bottom = kTickFont.size + 8 + height_of(x.label, kLabel);
+  return {panel.x + left, panel.y + top, panel.width - left - right, panel.height - top - bottom};
+}
+
+void draw_title(Canvas& canvas, const Box& data, const std::string& title) {
+  canvas.text({data.x + data.width / 2, data.y - 8}, title, kHeading, 0.5);
+}
+
+/// Ticks, their texts and both labels outside the box; lines across it where `lines`.
+void draw_axes(Canvas& canvas, const Box& box, const Axis& x, const Axis& y, bool lines) {
+  const double bottom = box.y + box.height;
+  for (const Tick& tick : axis_ticks(x)) {
+    const double at = box.x + tick.position * box.width;
+    if (lines) canvas.line({{at, box.y}, {at, bottom}}, kGrid, 0.8);
+    canvas.line({{at, bottom}, {at, bottom + 4}}, kInk, 1);
+    canvas.text({at, bottom + 6 + kTickFont.size}, tick.text, kTickFont, 0.5);
+  }
+  for (const Tick& tick : axis_ticks(y)) {
+    const double at = bottom - tick.position * box.height;
+    if (lines) canvas.line({{box.x, at}, {box.x + box.width, at}}, kGrid, 0.8);
+    canvas.line({{box.x - 4, at}, {box.x, at}}, kInk, 1);
+    canvas.text({box.x - 7, at + 0.36 * kTickFont.size}, tick.text, kTickFont, 1);
+  }
+  canvas.text({box.x + box.width / 2, bottom + 12 + kTickFont.size + kLabel.size}, x.label, kLabel, 0.5);
+  const double left = box.x - 14 - widest(canvas, axis_ticks(y));
+  canvas.text({left, box.y + box.height / 2}, y.label, kLabel, 0.5, true);
+}
+
+void draw_lines(Canvas& canvas, const Box& box, const LinePlot& plot, const Axis& x, const Axis& y) {
+  canvas.clip(box);
+  for (const Line& line : plot.lines) {
+    std::vector<Point> points;
+    const auto flush = [&] {
+      canvas.line(points, line.colour, 1.8, line.dashed);
+      points.clear();
+    };
+    for (std::size_t n = 0; n < line.x.size(); ++n) {
+      const double across = axis_position(x, line.x[n]);
+      const double up = axis_position(y, line.y[n]);
+      if (std::isfinite(across) && std::isfinite(up)) {
+        points.push_back({box.x + across * box.width, box.y + (1 - up) * box.height});
+      } else {
+        flush();
+      }
+    }
+    flush();
+  }
+  canvas.unclip();
+}
+
+void draw(Canvas& canvas, const Box& panel, const LinePlot& plot) {
+  std::vector<double> all_x;
+  std::vector<double> all_y;
+  for (const Line& line : plot.lines) {
+    if (line.x.size() != line.y.size()) {
+      throw std::invalid_argument("write_page: line '" + line.label + "' has " + std::to_string(line.x.size()) +
+                                  " x and " + std::to_string(line.y.size()) + " y");
+    }
+    all_x.insert(all_x.end(), line.x.begin(), line.x.end());
+    all_y.insert(all_y.end(), line.y.begin(), line.y.end());
+  }
+  const Axis x = fitted(plot.x, all_x);
+  const Axis y = fitted(plot.y, all_y);
+  const Box box = data_box(canvas, panel, plot.title, x, y, 12);
+  draw_title(canvas, box, plot.title);
+  draw_axes(canvas, box, x, y, true);
+  draw_lines(canvas, box, plot, x, y);
+  canvas.stroke(box, kInk, 1);
+}
+
+/// A bar of viridis, rising to the right or upwards; ticks are left to the caller.
+void draw_bar(Canvas& canvas, const Box& box, bool upright) {
+  constexpr int kSteps = 128;
+  for (int n = 0; n < kSteps; ++n) {
+    const Colour colour = viridis((n + 0.5) / kSteps);
+    const double from = static_cast<double>(n) / kSteps;
+    const double rest = 1 - from;  // each step covers all that follow: no seams
+    if (upright) {
+      canvas.fill({box.x, box.y, box.width, box.height * rest}, colour);
+    } else {
+      canvas.fill({box.x + box.width * from, box.y, box.width * rest, box.height}, colour);
+    }
+  }
+  canvas.stroke(box, kInk, 1);
+}
+
+void draw_cells(Canvas& canvas, const Box& box, const HeatMap& map, const Axis& x, const Axis& y, const Axis& colour) {
+  const auto column = [&](std::size_t n) { return box.x + axis_position(x, map.x_edges[n]) * box.width; };
+  const auto row = [&](std::size_t n) { return box.y + (1 - axis_position(y, map.y_edges[n])) * box.height; };
+  canvas.clip(box);
+  canvas.fill(box, kEmpty);
+  constexpr double kOverlap = 0.3;  // units by which a cell reaches under its neighbours: no seams
+  for (std::size_t i = 0; i + 1 < map.y_edges.size(); ++i) {
+    for (std::size_t j = 0; j + 1 < map.x_edges.size(); ++j) {
+      const double share =
+          axis_position(colour, map.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+      if (!std::isfinite(share)) continue;
+      canvas.fill({column(j), row(i + 1), column(j + 1) - column(j) + kOverlap, row(i) - row(i + 1) + kOverlap},
+                  viridis(share));
+    }
+  }
+  canvas.unclip();
+}
+
+void draw(Canvas& canvas, const Box& panel, const HeatMap& map) {
+  if (map.values.rows() + 1 != static_cast<Eigen::Index>(map.y_edges.size()) ||
+      map.values.cols() + 1 != static_cast<Eigen::Index>(map.x_edges.size())) {
+    throw std::invalid_argument("write_page: heat map '" + map.title +
+                                "' needs one edge more than it has rows and columns");
+  }
+  const Axis x = fitted(map.x, map.x_edges);
+  const Axis y = fitted(map.y, map.y_edges);
+  const Axis colour = fitted(map.colour, {map.values.data(), map.values.data() + map.values.size()});
+  const std::vector<Tick> ticks = axis_ticks(colour);
+  const double right = 12 + kBar + 10 + widest(canvas, ticks) + (colour.label.empty() ? 0 : kLabel.size + 8);
+  const Box box = data_box(canvas, panel, map.title, x, y, right);
+  draw_title(canvas, box, map.title);
+  draw_axes(canvas, box, x, y, false);
+  draw_cells(canvas, box, map, x, y, colour);
+  canvas.stroke(box, kInk, 1);
+  const Box bar{box.x + box.width + 12, box.y, kBar, box.height};
+  draw_bar(canvas, bar, true);
+  for (const Tick& tick : ticks) {
+    const double at = bar.y + (1 - tick.position) * bar.height;
+    canvas.line({{bar.x + kBar, at}, {bar.x + kBar + 3, at}}, kInk, 1);
+    canvas.text({bar.x + kBar + 6, at + 0.36 * kTickFont.size}, tick.text, kTickFont);
+  }
+  canvas.text({panel.x + panel.width - 2, bar.y + bar.height / 2}, colour.label, kLabel, 0.5, true);
+}
+
+/// One entry for each label, in order of appearance.
+std::vector<Line> legend_of(const std::vector<Panel>& panels) {
+  std::vector<Line> entries;
+  for (const Panel& panel : panels) {
+    const auto* plot = std::get_if<LinePlot>(&panel);
+    if (plot == nullptr) continue;
+    for (const Line& line : plot->lines) {
+      const bool known =
+          std::any_of(entries.begin(), entries.end(), [&](const Line& e) { return e.label == line.label; });
+      if (!line.label.empty() && !known) entries.push_back({line.label, {}, {}, line.colour, line.dashed});
+    }
+  }
+  return entries;
+}
+
+void draw_legend(Canvas& canvas, Point centre, const std::vector<Line>& entries) {
+  constexpr double kSample = 26;
+  constexpr double kGap = 22;
+  double width = -kGap;
+  for (const Line& entry : entries) width += kSample + 6 + canvas.text_width(entry.label, kLabel) + kGap;
+  double x = centre.x - width / 2;
+  for (const Line& entry : entries) {
+    const double y = centre.y - 0.35 * kLabel.size;
+    canvas.line({{x, y}, {x + kSample, y}}, entry.colour, 2.4, entry.dashed);
+    canvas.text({x + kSample + 6, centre.y}, entry.label, kLabel);
+    x += kSample + 6 + canvas.text_width(entry.label, kLabel) + kGap;
+  }
+}
+
+void require_grid(const ImageGrid& grid) {
+  if (grid.rows.empty() || grid.rows.front().empty()) throw std::invalid_argument("write_grid: no pictures");
+  const Bytes& first = grid.rows.front().front().picture;
+  for (const auto& row : grid.rows) {
+    for (const Tile& tile : row) {
+      const Bytes& bytes = tile.picture;
+      const auto size = static_cast<std::size_t>(bytes.width) * static_cast<std::size_t>(bytes.height) * 3;
+      if (bytes.width != first.width || bytes.height != first.height || bytes.rgb.size() != size) {
+        throw std::invalid_argument("write_grid: pictures must all have one size");
+      }
+    }
+    if (!grid.column_labels.empty() && grid.column_labels.size() != row.size()) {
+      throw std::invalid_argument("write_grid: every row needs a picture for each of the column labels");
+    }
+  }
+  if (!grid.row_labels.empty() && grid.row_labels.size() != grid.rows.size()) {
+    throw std::invalid_argument("write_grid: there must be one row label for each row");
+  }
+}
+
+/// Text that would not fit is set smaller.
+void draw_fitted(Canvas& canvas, Point at, const std::string& text, Font font, double width) {
+  font.size *= std::min(1.0, width / std::max(canvas.text_width(text, font), 1.0));
+  canvas.text(at, text, font, 0.5);
+}
+
+double caption_height(const std::vector<Tile>& row) {
+  const bool any = std::any_of(row.begin(), row.end(), [](const Tile& tile) { return !tile.caption.empty(); });
+  return any ? kTickFont.size + 4 : 0;
+}
+
+/// Draws all tiles from a corner and returns the lower end.
+double draw_tiles(Canvas& canvas, Point corner, const ImageGrid& grid) {
+  const double width = grid.rows.front().front().picture.width;
+  const double height = grid.rows.front().front().picture.height;
+  const auto left = [&](std::size_t column) { return corner.x + static_cast<double>(column) * (width + kMargin); };
+  for (std::size_t c = 0; c < grid.column_labels.size(); ++c) {
+    draw_fitted(canvas, {left(c) + width / 2, corner.y - 8}, grid.column_labels[c], kHeading, width);
+  }
+  double y = corner.y;
+  for (std::size_t r = 0; r < grid.rows.size(); ++r) {
+    if (!grid.row_labels.empty()) {
+      canvas.text({corner.x - 10, y + height / 2}, grid.row_labels[r], kHeading, 0.5, true);
+    }
+    for (std::size_t c = 0; c < grid.rows[r].size(); ++c) {
+      const Tile& tile = grid.rows[r][c];
+      canvas.picture({left(c), y}, tile.picture);
+      draw_fitted(canvas, {left(c) + width / 2, y + height + kTickFont.size + 3}, tile.caption, kTickFont, width);
+    }
+    y += height + caption_height(grid.rows[r]) + kMargin;
+  }
+  return y;
+}
+
+}  // namespace
+
+void write_page(const std::filesystem::path& path, const Page& page) {
+  if (page.panels.empty() || page.columns < 1) throw std::invalid_argument("write_page: no panels");
+  const int columns = std::min(page.columns, static_cast<int>(page.panels.size()));
+  const int rows = (static_cast<int>(page.panels.size()) + columns - 1) / columns;
+  const std::vector<Line> legend = legend_of(page.panels);
+  const double title = height_of(page.title, kTitle);
+  const double top = kMargin + title + (legend.empty() ? 0 : kLabel.size + 14);
+  const double width = 2 * kMargin + columns * page.panel_width + (columns - 1) * kMargin;
+  Canvas canvas(path, width, top + rows * (page.panel_height + kMargin), 2);
+  canvas.text({width / 2, kMargin + kTitle.size}, page.title, kTitle, 0.5);
+  draw_legend(canvas, {width / 2, kMargin + title + kLabel.size + 2}, legend);
+  for (std::size_t n = 0; n < page.panels.size(); ++n) {
+    const int row = static_cast<int>(n) / columns;
+    const int column = static_cast<int>(n) % columns;
+    const Box box{kMargin + column * (page.panel_width + kMargin), top + row * (page.panel_height + kMargin),
+                  page.panel_width, page.panel_height};
+    std::visit([&](const auto& panel) { draw(canvas, box, panel); }, page.panels[n]);
+  }
+  canvas.save();
+}
+
+void write_grid(const std::filesystem::path& path, const ImageGrid& grid) {
+  require_grid(grid);
+  const Bytes& first = grid.rows.front().front().picture;
+  const Point corner{kMargin + (grid.row_labels.empty() ? 0 : kHeading.size + 12),
+                     kMargin + height_of(grid.title, kTitle) + (grid.column_labels.empty() ? 0 : kHeading.size + 10)};
+  std::size_t columns = 0;
+  double height = corner.y;
+  for (const auto& row : grid.rows) {
+    columns = std::max(columns, row.size());
+    height += first.height + caption_height(row) + kMargin;
+  }
+  if (grid.colour_bar) height += kBar + kTickFont.size + 2 * kLabel.size;
+  const double width = corner.x + static_cast<double>(columns) * (first.width + kMargin);
+  Canvas canvas(path, width, height, 1);
+  draw_fitted(canvas, {width / 2, kMargin + kTitle.size}, grid.title, kTitle, width - 2 * kMargin);
+  const double bottom = draw_tiles(canvas, corner, grid);
+  if (grid.colour_bar) {
+    const double span = std::min(320.0, width - corner.x - kMargin);
+    const Box bar{corner.x + (width - corner.x - kMargin - span) / 2, bottom, span, kBar};
+    draw_bar(canvas, bar, false);
+    for (const Tick& tick : axis_ticks(*grid.colour_bar)) {
+      canvas.text({bar.x + tick.position * span, bottom + kBar + kTickFont.size + 3}, tick.text, kTickFont, 0.5);
+    }
+    canvas.text({bar.x + span / 2, bottom + kBar + kTickFont.size + kLabel.size + 8}, grid.colour_bar->label, kLabel,
+                0.5);
+  }
+  canvas.save();
+}
+
+}  // namespace sklar::brdf

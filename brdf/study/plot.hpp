@@ -1,0 +1,69 @@
+#pragma once
+/// Plots as PNG or SVG: pages of line plots and heat maps, and grids of pictures. In every text `_{...}` is lowered and
+/// `^{...}` raised.
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "brdf/render/image.hpp"
+#include "brdf/study/axis.hpp"
+
+namespace sklar::brdf {
+
+struct Line {
+  std::string label = {};  ///< lines with one label share one entry of the legend; empty: none
+  std::vector<double> x = {}, y = {};
+  Colour colour{0, 0, 0};
+  bool dashed = false;
+};
+
+/// Joined points; a point that an axis cannot show breaks its line.
+struct LinePlot {
+  std::string title = {};
+  Axis x = {}, y = {};
+  std::vector<Line> lines = {};
+};
+
+/// A rectangle of colour for each value; what the scale cannot show stays grey.
+struct HeatMap {
+  std::string title = {};
+  Axis x = {}, y = {};
+  std::vector<double> x_edges = {}, y_edges = {};  ///< one more than columns, rows; rising
+  Eigen::ArrayXXd values = {};                     ///< rows along y, columns along x
+  Axis colour = {};                                ///< of the colour bar
+};
+
+using Panel = std::variant<LinePlot, HeatMap>;
+
+struct Page {
+  std::string title = {};
+  int columns = 3;
+  std::vector<Panel> panels = {};
+  double panel_width = 340;  ///< in units of 1/96 inch; a PNG has two pixels a unit
+  double panel_height = 270;
+};
+
+struct Tile {
+  Bytes picture;
+  std::string caption;  ///< below the picture
+};
+
+struct ImageGrid {
+  std::string title = {};
+  std::vector<std::string> column_labels, row_labels;  ///< empty, or one for each column, row
+  std::vector<std::vector<Tile>> rows;                 ///< all of one size
+  std::optional<Axis> colour_bar;                      ///< a viridis bar below, for rows in false colour
+};
+
+/// @param path ends in .png or .svg.
+/// @throws std::invalid_argument for another ending, an empty page or arrays that do not fit together; FileError.
+void write_page(const std::filesystem::path& path, const Page& page);
+
+/// One pixel of a PNG for each pixel of a picture. Errors as write_page.
+void write_grid(const std::filesystem::path& path, const ImageGrid& grid);
+
+}  // namespace sklar::brdf

@@ -1,0 +1,147 @@
+#include "brdf/study/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "copula/error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+std::vector<std::string> texts(const Axis& axis) {
+  std::vector<std::string> all;
+  for (const Tick& tick : axis_ticks(axis)) all.push_back(tick.text);
+  return all;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(PlotAxis, TicksAreRoundNumbers) {
+  EXPECT_EQ(texts({.low = 0, .high = 0.3}), (Texts{"0", "0.05", "0.1", "0.15", "0.2", "0.25", "0.3"}));
+  EXPECT_EQ(texts({.low = -3, .high = 7}), (Texts{"-2", "0", "2", "4", "6"}));
+  EXPECT_EQ(texts({.low = 0, .high = 90, .ticks = {0, 45, 90, 100}}), (Texts{"0", "45", "90"}));
+  EXPECT_EQ(texts({.scale = Scale::logarithmic, .low = 0.02, .high = 10}), (Texts{"10^{-1}", "10^{0}", "10^{1}"}));
+}
+
+TEST(PlotAxis, PositionsFollowTheScale) {
+  EXPECT_DOUBLE_EQ(axis_position({.low = 2, .high = 4}, 3), 0.5);
+  EXPECT_DOUBLE_EQ(axis_position({.scale = Scale::logarithmic, .low = 0.01, .high = 100}, 1), 0.5);
+  EXPECT_DOUBLE_EQ(axis_position({.scale = Scale::square_root, .low = 0, .high = 4}, 1), 0.5);
+  EXPECT_TRUE(std::isnan(axis_position({.scale = Scale::logarithmic, .low = 0.01, .high = 100}, 0)));
+}
+
+TEST(PlotAxis, RangeComesFromWhatCanBeShown) {
+  const double inf = std::numeric_limits<double>::infinity();
+  const Axis logarithmic = fitted({.scale = Scale::logarithmic}, {0, 0.5, -1, 20, inf, std::nan("")});
+  EXPECT_EQ(logarithmic.low, 0.5);
+  EXPECT_EQ(logarithmic.high, 20);
+  const Axis linear = fitted({}, {0.13, 0.87});
+  EXPECT_NEAR(linear.low, 0, 1e-12);
+  EXPECT_NEAR(linear.high, 1, 1e-12);
+  for (const Scale scale : {Scale::linear, Scale::logarithmic, Scale::square_root}) {
+    for (const std::vector<double>& values : {std::vector<double>{}, std::vector<double>{3, 3}}) {
+      const Axis axis = fitted({.scale = scale}, values);
+      EXPECT_LT(axis.low, axis.high);
+      EXPECT_TRUE(std::isfinite(axis_position(axis, 3)));
+    }
+  }
+}
+
+TEST(Palette, ViridisEndsAreItsPublishedColours) {
+  EXPECT_DOUBLE_EQ(viridis(0).red, 68 / 255.0);
+  EXPECT_DOUBLE_EQ(viridis(1).green, 231 / 255.0);
+  EXPECT_DOUBLE_EQ(viridis(2).green, 231 / 255.0);
+  EXPECT_DOUBLE_EQ(viridis(std::nan("")).red, 68 / 255.0);
+}
+
+using PlotFile = test::TemporaryFolder;
+
+Page diagonal_page() {
+  LinePlot plot{.title = "plot", .x = {.low = 0, .high = 1}, .y = {.low = 0, .high = 1}};
+  plot.lines.push_back({.label = "a_name", .x = {0, 1}, .y = {0, 1}, .colour = {1, 0, 0}});
+  HeatMap map{.title = "map", .x_edges = {0, 1, 2}, .y_edges = {0, 1, 2}};
+  map.values.resize(2, 2);
+  map.values << 0, 1, std::nan(""), 3;
+  return {.title = "page", .panels = {plot, map}};
+}
+
+struct Count {
+  int white = 0, red = 0, other = 0;
+};
+
+Count count(const Bytes& bytes) {
+  Count all;
+  for (std::size_t n = 0; n < bytes.rgb.size(); n += 3) {
+    const int red = bytes.rgb[n];
+    const int green = bytes.rgb[n + 1];
+    const int blue = bytes.rgb[n + 2];
+    if (red == 255 && green == 255 && blue == 255) {
+      ++all.white;
+    } else if (red > 240 && green < 20 && blue < 20) {
+      ++all.red;
+    } else {
+      ++all.other;
+    }
+  }
+  return all;
+}
+
+TEST_F(PlotFile, PageIsAPictureWithItsLine) {
+  write_page(folder_ / "page.png", diagonal_page());
+  const Bytes bytes = read_png(folder_ / "page.png");
+  EXPECT_GT(bytes.width, 1300);
+  const Count colours = count(bytes);
+  EXPECT_GT(colours.white, bytes.width * bytes.height / 3) << "background";
+  EXPECT_GT(colours.red, 500) << "the line crosses the panel";
+  EXPECT_GT(colours.other, bytes.width * bytes.height / 20) << "the map, axes and text";
+}
+
+TEST_F(PlotFile, PageAsSvg) {
+  write_page(folder_ / "page.svg", diagonal_page());
+  std::ifstream in(folder_ / "page.svg");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("<svg"), std::string::npos);
+  EXPECT_NE(text.find("</svg>"), std::string::npos);
+}
+
+TEST_F(PlotFile, SameInputSameBytes) {
+  write_page(folder_ / "a.png", diagonal_page());
+  write_page(folder_ / "b.png", diagonal_page());
+  EXPECT_EQ(read_png(folder_ / "a.png").rgb, read_png(folder_ / "b.png").rgb);
+}
+
+TEST_F(PlotFile, GridKeepsEveryPixel) {
+  Bytes red{20, 10, {}};
+  for (int n = 0; n < 200; ++n) red.rgb.insert(red.rgb.end(), {255, 0, 0});
+  ImageGrid grid;
+  grid.title = "t";
+  grid.column_labels = {"a", "b"};
+  grid.row_labels = {"r", "s"};
+  grid.rows = {{{red, ""}, {red, ""}}, {{red, "caption"}, {red, ""}}};
+  grid.colour_bar = Axis{.label = "bar", .low = 0, .high = 1};
+  write_grid(folder_ / "grid.png", grid);
+  EXPECT_EQ(count(read_png(folder_ / "grid.png")).red, 4 * 200);
+}
+
+TEST_F(PlotFile, BadArgumentsAreRefused) {
+  Page page = diagonal_page();
+  EXPECT_THROW(write_page(folder_ / "page.jpg", page), std::invalid_argument);
+  EXPECT_THROW(write_page(folder_ / "nowhere" / "page.png", page), FileError);
+  std::get<LinePlot>(page.panels[0]).lines[0].y.pop_back();
+  EXPECT_THROW(write_page(folder_ / "page.png", page), std::invalid_argument);
+  page.panels.erase(page.panels.begin());
+  std::get<HeatMap>(page.panels[0]).x_edges.pop_back();
+  EXPECT_THROW(write_page(folder_ / "page.png", page), std::invalid_argument);
+  EXPECT_THROW(write_page(folder_ / "page.png", Page{}), std::invalid_argument);
+  EXPECT_THROW(write_grid(folder_ / "grid.png", ImageGrid{}), std::invalid_argument);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+}  // namespace
+}  // namespace sklar::brdf
