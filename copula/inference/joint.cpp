@@ -7,8 +7,7 @@
 
 namespace sklar {
 
-template <class M>
-JointDistribution<M>::JointDistribution(std::vector<std::shared_ptr<const M>> margins, CopulaPtr copula)
+JointDistribution::JointDistribution(std::vector<std::shared_ptr<const Marginal>> margins, CopulaPtr copula)
     : margins_(std::move(margins)), copula_(std::move(copula)) {
   if (margins_.size() != static_cast<std::size_t>(dim())) {
     throw std::invalid_argument("joint distribution: a copula of dimension " + std::to_string(dim()) + " needs " +
@@ -16,37 +15,23 @@ JointDistribution<M>::JointDistribution(std::vector<std::shared_ptr<const M>> ma
   }
 }
 
-template <class M>
-Points JointDistribution<M>::to_uniforms(const PointsRef& x) const {
+Points JointDistribution::to_uniforms(const PointsRef& x) const {
   require_columns("joint distribution", "x", x.cols(), 1, dim());
   Points u(x.rows(), x.cols());
   for (Index i = 0; i < x.cols(); ++i) u.col(i) = margins_[static_cast<std::size_t>(i)]->cdf(x.col(i));
   return u;
 }
 
-template <class M>
-Column JointDistribution<M>::log_pdf(const PointsRef& x) const requires std::derived_from<M, DensityMarginal> {
-  require_columns("log_pdf", "x", x.cols(), dim(), dim());
-  Column margins = Column::Zero(x.rows());
-  for (Index i = 0; i < x.cols(); ++i) margins += margins_[static_cast<std::size_t>(i)]->log_pdf(x.col(i));
-  // Where a margin has no density the joint one has none, whatever the limit of the copula's there.
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  return (margins == kNone).select(kNone, margins + copula_->log_pdf(to_uniforms(x)));
-}
-
-template <class M>
-Column JointDistribution<M>::cdf(const PointsRef& x) const {
+Column JointDistribution::cdf(const PointsRef& x) const {
   require_columns("cdf", "x", x.cols(), dim(), dim());
   return copula_->cdf(to_uniforms(x));
 }
 
-template <class M>
-Column JointDistribution<M>::conditional_cdf(const PointsRef& x) const {
+Column JointDistribution::conditional_cdf(const PointsRef& x) const {
   return copula_->h(to_uniforms(x));
 }
 
-template <class M>
-Column JointDistribution<M>::conditional_quantile(const PointsRef& x) const {
+Column JointDistribution::conditional_quantile(const PointsRef& x) const {
   require_columns("conditional_quantile", "x", x.cols(), 1, dim());
   const Index last = x.cols() - 1;
   Points u(x.rows(), x.cols());
@@ -55,18 +40,15 @@ Column JointDistribution<M>::conditional_quantile(const PointsRef& x) const {
   return margins_[static_cast<std::size_t>(last)]->quantile(copula_->h_inv(u));
 }
 
-template <class M>
-Points JointDistribution<M>::inverse_rosenblatt(const PointsRef& w, const PointsRef& given) const {
+Points JointDistribution::inverse_rosenblatt(const PointsRef& w, const PointsRef& given) const {
   return values(copula_->inverse_rosenblatt(w, given.cols() > 0 ? to_uniforms(given) : Points(given)), given);
 }
 
-template <class M>
-Points JointDistribution<M>::sample(Index n, Rng& rng, const PointsRef& given) const {
+Points JointDistribution::sample(Index n, Rng& rng, const PointsRef& given) const {
   return values(copula_->sample(n, rng, given.cols() > 0 ? to_uniforms(given) : Points(given)), given);
 }
 
-template <class M>
-Points JointDistribution<M>::values(const Points& u, const PointsRef& given) const {
+Points JointDistribution::values(const Points& u, const PointsRef& given) const {
   const Index fixed = given.cols();
   Points x(u.rows(), u.cols());
   if (given.rows() == 1) {
@@ -78,7 +60,16 @@ Points JointDistribution<M>::values(const Points& u, const PointsRef& given) con
   return x;
 }
 
-template class JointDistribution<Marginal>;
-template class JointDistribution<DensityMarginal>;
+JointDensity::JointDensity(std::vector<std::shared_ptr<const DensityMarginal>> margins, CopulaPtr copula)
+    : JointDistribution({margins.begin(), margins.end()}, std::move(copula)), densities_(std::move(margins)) {}
+
+Column JointDensity::log_pdf(const PointsRef& x) const {
+  require_columns("log_pdf", "x", x.cols(), dim(), dim());
+  Column margins = Column::Zero(x.rows());
+  for (Index i = 0; i < x.cols(); ++i) margins += densities_[static_cast<std::size_t>(i)]->log_pdf(x.col(i));
+  // Where a margin has no density the joint one has none, whatever the limit of the copula's there.
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  return (margins == kNone).select(kNone, margins + copula().log_pdf(to_uniforms(x)));
+}
 
 }  // namespace sklar

@@ -1,7 +1,6 @@
 #pragma once
 /// Sklar's theorem: margins and a copula make a joint distribution, H(x) = C(F_1(x_1), .., F_d(x_d)) (paper Eq. 2).
 
-#include <concepts>
 #include <memory>
 #include <vector>
 
@@ -10,23 +9,19 @@
 
 namespace sklar {
 
-/// @tparam M Marginal, or DensityMarginal where log_pdf is wanted. Defined for these two.
-/// Every call takes x with any value (a row with NaN gives NaN) and throws std::invalid_argument for a wrong shape.
-template <class M>
+/// Margins of any kind. Every call takes x with any value (a row with NaN gives NaN) and throws std::invalid_argument
+/// for a wrong shape.
 class JointDistribution {
  public:
   /// @throws std::invalid_argument unless there is one margin a dimension of the copula.
-  JointDistribution(std::vector<std::shared_ptr<const M>> margins, CopulaPtr copula);
+  JointDistribution(std::vector<std::shared_ptr<const Marginal>> margins, CopulaPtr copula);
 
   [[nodiscard]] int dim() const noexcept { return copula_->dim(); }
-  [[nodiscard]] const M& margin(int i) const { return *margins_.at(static_cast<std::size_t>(i)); }
+  [[nodiscard]] const Marginal& margin(int i) const { return *margins_.at(static_cast<std::size_t>(i)); }
   [[nodiscard]] const Copula& copula() const noexcept { return *copula_; }
 
   /// F_i(x_i) of the leading k coordinates. @param x n x k, 1 <= k <= d.
   [[nodiscard]] Points to_uniforms(const PointsRef& x) const;
-
-  /// Natural log of c(F(x)) prod f_i(x_i), -inf outside the support. @param x n x d.
-  [[nodiscard]] Column log_pdf(const PointsRef& x) const requires std::derived_from<M, DensityMarginal>;
 
   /// P(X_1 <= x_1, .., X_d <= x_d). @param x n x d.
   [[nodiscard]] Column cdf(const PointsRef& x) const;
@@ -48,11 +43,21 @@ class JointDistribution {
   /// Points of the copula to points of X, keeping the given leading coordinates.
   [[nodiscard]] Points values(const Points& u, const PointsRef& given) const;
 
-  std::vector<std::shared_ptr<const M>> margins_;
+  std::vector<std::shared_ptr<const Marginal>> margins_;
   CopulaPtr copula_;
 };
 
-extern template class JointDistribution<Marginal>;
-extern template class JointDistribution<DensityMarginal>;
+/// Margins that all have a density, so that the joint distribution has one.
+class JointDensity final : public JointDistribution {
+ public:
+  /// @throws as JointDistribution does.
+  JointDensity(std::vector<std::shared_ptr<const DensityMarginal>> margins, CopulaPtr copula);
+
+  /// Natural log of c(F(x)) prod f_i(x_i), -inf outside the support. @param x n x d.
+  [[nodiscard]] Column log_pdf(const PointsRef& x) const;
+
+ private:
+  std::vector<std::shared_ptr<const DensityMarginal>> densities_;
+};
 
 }  // namespace sklar

@@ -136,7 +136,7 @@ CopulaPtr make_copula(const CopulaModel& model, std::span<const FamilyInfo> fami
   return find_family(model.family, families).make(model.dim, model.theta);
 }
 
-JointDistribution<Marginal> make_joint(const CopulaModel& model, std::span<const FamilyInfo> families) {
+JointDistribution make_joint(const CopulaModel& model, std::span<const FamilyInfo> families) {
   std::vector<std::shared_ptr<const Marginal>> margins;
   for (const StoredMarginal& margin : model.margins) {
     margins.push_back(std::visit(

@@ -40,6 +40,6 @@ inline constexpr int kModelVersion = 1;
 
 /// @throws std::invalid_argument for an unknown family or a wrong number of margins, else as FamilyInfo::make.
 [[nodiscard]] CopulaPtr make_copula(const CopulaModel& model, std::span<const FamilyInfo> families);
-[[nodiscard]] JointDistribution<Marginal> make_joint(const CopulaModel& model, std::span<const FamilyInfo> families);
+[[nodiscard]] JointDistribution make_joint(const CopulaModel& model, std::span<const FamilyInfo> families);
 
 }  // namespace sklar

@@ -16,23 +16,21 @@ template <class J>
 concept HasLogPdf = requires(const J& joint, const Points& x) {
   joint.log_pdf(x);
 };
-static_assert(HasLogPdf<JointDistribution<DensityMarginal>> && !HasLogPdf<JointDistribution<Marginal>>);
-
-using Joint = JointDistribution<DensityMarginal>;
+static_assert(HasLogPdf<JointDensity> && !HasLogPdf<JointDistribution>);
 
 /// Margins that differ, on [0, 4].
 std::shared_ptr<const HistogramMarginal> margin(int i) {
   return std::make_shared<HistogramMarginal>(std::vector<double>{0, 1, 2.5, 4}, std::vector<double>{1.0 + i, 2, 0.5});
 }
 
-Joint joint_of(const test::FamilyCase& test_case) {
+JointDensity joint_of(const test::FamilyCase& test_case) {
   std::vector<std::shared_ptr<const DensityMarginal>> margins;
   for (int i = 0; i < test_case.dim; ++i) margins.push_back(margin(i));
   return {std::move(margins), test_case.copula()};
 }
 
 /// Probability of the box (low, high]^d by inclusion and exclusion.
-double box_probability(const Joint& joint, double low, double high) {
+double box_probability(const JointDensity& joint, double low, double high) {
   const int corners = 1 << joint.dim();
   Points x(corners, joint.dim());
   Column sign = Column::Ones(corners);
@@ -47,7 +45,7 @@ double box_probability(const Joint& joint, double low, double high) {
 }
 
 /// Integral of the density over [low, high]^d by a product Gauss rule; the box must lie within one bin of every margin.
-double box_integral(const Joint& joint, double low, double high) {
+double box_integral(const JointDensity& joint, double low, double high) {
   constexpr unsigned kNodes = 20;
   using Rule = boost::math::quadrature::gauss<double, kNodes>;
   std::vector<std::pair<double, double>> rule;  // node, weight on [low, high]
@@ -74,7 +72,7 @@ double box_integral(const Joint& joint, double low, double high) {
 TEST(Joint, DensityIntegratesToTheProbabilityOfABox) {
   constexpr double kQuadrature = 1e-9;  // 20 Gauss nodes on a smooth density, tau about 0.3
   for (const test::FamilyCase& test_case : test::family_cases_near(0.3, {2, 3})) {
-    const Joint joint = joint_of(test_case);
+    const JointDensity joint = joint_of(test_case);
     const double expected = box_probability(joint, 1.25, 2.25);
     EXPECT_NEAR(box_integral(joint, 1.25, 2.25), expected, kQuadrature * expected) << test_case.name();
   }
@@ -82,7 +80,7 @@ TEST(Joint, DensityIntegratesToTheProbabilityOfABox) {
 
 TEST(Joint, HasMassOneWithinItsSupport) {
   for (const test::FamilyCase& test_case : test::family_cases({2, 3})) {
-    const Joint joint = joint_of(test_case);
+    const JointDensity joint = joint_of(test_case);
     EXPECT_EQ(joint.cdf(Points::Constant(1, test_case.dim, 4.0))[0], 1) << test_case.name();
     EXPECT_EQ(joint.cdf(Points::Constant(1, test_case.dim, 0.0))[0], 0) << test_case.name();
     EXPECT_EQ(joint.log_pdf(Points::Constant(1, test_case.dim, 4.5))[0], -std::numeric_limits<double>::infinity());
@@ -93,7 +91,7 @@ TEST(Joint, ConditionalsAreInverseAndKeepWhatIsGiven) {
   constexpr double kRoundTrip = 1e-9;  // relative; the cdf of the sample is rounded before it is conditioned on
   Rng rng(5);
   for (const test::FamilyCase& test_case : test::family_cases_near(0.3, {2, 4})) {
-    const Joint joint = joint_of(test_case);
+    const JointDensity joint = joint_of(test_case);
     const Points w = uniforms(rng, 50, test_case.dim - 1);
     const Points x = joint.inverse_rosenblatt(w, Points::Constant(1, 1, 1.7));
     EXPECT_TRUE((x.col(0) == 1.7).all());
@@ -109,14 +107,14 @@ TEST(Joint, ConditionalsAreInverseAndKeepWhatIsGiven) {
 
 TEST(Joint, SampleIsItsUniformsTransformed) {
   const test::FamilyCase test_case = test::family_cases_near(0.3, {3}).back();
-  const Joint joint = joint_of(test_case);
+  const JointDensity joint = joint_of(test_case);
   Rng rng(6);
   Rng same(6);
   EXPECT_TRUE((joint.sample(10, rng) == joint.inverse_rosenblatt(uniforms(same, 10, 3))).all());
 }
 
 TEST(Joint, NaNStaysInItsRow) {
-  const Joint joint = joint_of(test::family_cases_near(0.3, {2}).back());
+  const JointDensity joint = joint_of(test::family_cases_near(0.3, {2}).back());
   Points x = Points::Constant(2, 2, 1.5);
   x(1, 0) = std::nan("");
   EXPECT_TRUE(std::isnan(joint.log_pdf(x)[1]) && std::isnan(joint.cdf(x)[1]));
@@ -125,8 +123,8 @@ TEST(Joint, NaNStaysInItsRow) {
 
 TEST(Joint, RefusesWrongShapes) {
   const test::FamilyCase test_case = test::family_cases_near(0.3, {2}).back();
-  const Joint joint = joint_of(test_case);
-  EXPECT_THROW((void)Joint({margin(0)}, test_case.copula()), std::invalid_argument);
+  const JointDensity joint = joint_of(test_case);
+  EXPECT_THROW((void)JointDensity({margin(0)}, test_case.copula()), std::invalid_argument);
   EXPECT_THROW((void)joint.log_pdf(Points::Ones(1, 3)), std::invalid_argument);
   EXPECT_THROW((void)joint.cdf(Points::Ones(1, 1)), std::invalid_argument);
   EXPECT_THROW((void)joint.conditional_cdf(Points::Ones(1, 3)), std::invalid_argument);
