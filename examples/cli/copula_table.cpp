@@ -58,7 +58,7 @@ void judge_row(const Group& group, const Copula& copula, Row& row) {
 void answer(Group& group) {
   CopulaPtr copula;
   try {
-    copula = group.family->make(group.dim, group.theta);
+    copula = group.family->make(group.quantity.dim_for(group.dim), group.theta);
   } catch (const std::domain_error& error) {
     for (Row* row : group.rows) row->failure = error.what();
     return;

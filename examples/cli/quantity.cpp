@@ -1,7 +1,10 @@
 #include "examples/cli/quantity.hpp"
 
+#include <charconv>
 #include <stdexcept>
 #include <string>
+
+#include "copula/archimedean_copula.hpp"
 
 namespace sklar::cli {
 namespace {
@@ -19,9 +22,29 @@ constexpr Named kQuantities[] = {
     {"h_inv_upper", &Copula::h_inv_upper, Rule::inverse},
 };
 
+constexpr std::string_view kDerivative = "log_dpsi:";
+
+Column log_abs_dpsi(int order, const Copula& copula, const PointsRef& t) {
+  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
+  if (archimedean == nullptr) throw std::domain_error("log_dpsi: the copula has no generator");
+  return archimedean->log_abs_dpsi(order, t.col(0));
+}
+
+/// Empty unless the name is log_dpsi:k with a whole number k >= 0.
+std::optional<Quantity> find_derivative(std::string_view name) {
+  if (!name.starts_with(kDerivative)) return std::nullopt;
+  const char* end = name.data() + name.size();
+  int order = -1;
+  const auto [stop, error] = std::from_chars(name.data() + kDerivative.size(), end, order);
+  if (error != std::errc() || stop != end || order < 0) return std::nullopt;
+  return Quantity{[order](const Copula& copula, const PointsRef& t) { return log_abs_dpsi(order, copula, t); },
+                  Rule::logarithm, order};
+}
+
 }  // namespace
 
 Quantity find_quantity(std::string_view name) {
+  if (const std::optional<Quantity> derivative = find_derivative(name)) return *derivative;
   std::string known;
   for (const Named& quantity : kQuantities) {
     if (quantity.name == name) return {std::mem_fn(quantity.method), quantity.rule};

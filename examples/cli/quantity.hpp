@@ -1,7 +1,9 @@
 #pragma once
 /// The quantities a table may ask for, by name.
 
+#include <algorithm>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "copula/copula.hpp"
@@ -12,7 +14,10 @@ namespace sklar::cli {
 struct Quantity {
   std::function<Column(const Copula&, const PointsRef&)> evaluate;
   Rule rule;
-  bool takes_t = false;  ///< the argument is t, one number, instead of u
+  std::optional<int> order = {};  ///< of a derivative of psi, whose argument is t, one number, instead of u
+
+  /// The dimension in which the copula has the derivative, at least that of the row.
+  [[nodiscard]] int dim_for(int dim) const { return std::max(dim, order.value_or(0)); }
 };
 
 /// log_pdf, cdf, log_cdf, h, h_upper, h_inv, h_inv_upper, log_dpsi:k.

@@ -40,7 +40,7 @@ Group parse_group(const std::vector<std::string>& fields) {
 Row parse_row(std::size_t line, std::vector<std::string> fields, const Group& group) {
   Row row{.line = line, .fields = std::move(fields)};
   row.arguments = parse_numbers(row.fields[kU], ' ', "u");
-  const std::size_t wanted = group.quantity.takes_t ? 1 : static_cast<std::size_t>(group.dim);
+  const std::size_t wanted = group.quantity.order ? 1 : static_cast<std::size_t>(group.dim);
   if (row.arguments.size() != wanted) {
     throw std::invalid_argument("u must hold " + std::to_string(wanted) + " numbers, got " +
                                 std::to_string(row.arguments.size()));

@@ -79,7 +79,9 @@ TEST_F(CopulaTable, AnswersInTheOrderOfTheFile) {
                       "independence,,log_pdf,3,0.5 0.25 1\n"
                       "independence,,h,2,1 0.1\n"
                       "independence,,log_cdf,2,0 0.5\n"
-                      "independence,,h,2,0.5 nan\n");
+                      "independence,,h,2,0.5 nan\n"
+                      "independence,,log_dpsi:5,2,3\n"
+                      "independence,,log_dpsi:0,2,-1\n");
   const Result result = run("copula table in.csv -o out.csv");
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, "");
@@ -89,7 +91,9 @@ TEST_F(CopulaTable, AnswersInTheOrderOfTheFile) {
             "independence,,log_pdf,3,0.5 0.25 1,0\n"
             "independence,,h,2,1 0.1,0.10000000000000001\n"
             "independence,,log_cdf,2,0 0.5,-inf\n"
-            "independence,,h,2,0.5 nan,nan\n");
+            "independence,,h,2,0.5 nan,nan\n"
+            "independence,,log_dpsi:5,2,3,-3\n"
+            "independence,,log_dpsi:0,2,-1,\"error: log_abs_dpsi: t must be >= 0, got t(0) = -1\"\n");
   EXPECT_NE(result.err.find("independence h: 3 rows\n"), std::string::npos) << result.err;
 }
 
@@ -136,6 +140,8 @@ TEST_F(CopulaTable, RefusesABadRowWithItsLine) {
   refused(kHeader + good + "gaussian,,cdf,2,0.5 0.5\n", "line 3: unknown family 'gaussian'; known families: ");
   refused(kHeader + good + "independence,,pdf,2,0.5 0.5\n",
           "line 3: unknown quantity 'pdf'; known quantities: log_pdf");
+  refused(kHeader + good + "independence,,log_dpsi:x,2,1\n", "line 3: unknown quantity 'log_dpsi:x'");
+  refused(kHeader + good + "independence,,log_dpsi:1,2,1 2\n", "line 3: u must hold 1 numbers, got 2");
   refused(kHeader + good + "independence,1,cdf,2,0.5 0.5\n", "line 3: independence takes 0 parameters, got 1");
   refused(kHeader + "independence,,cdf,1,0.5\n", "line 2: d must be a whole number from 2, got '1'");
   refused(kHeader + good + "\n" + good, "line 3: must have 5 fields, got 1");
