@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/packages.sh
-need_packages $test_packages
+need_packages $build_packages
 
 preset=${1:-release}
 case $preset in release) build=build ;; *) build=build-$preset ;; esac
