@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/analytic/ggx.hpp"
+#include "brdf/analytic/lambert.hpp"
 #include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
@@ -15,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Albedo, LambertIsItsReflectance) {
   constexpr double kRounding = 1e-12;  ///< relative, of a sum of 8192 terms
-  const AlbedoCurve curve = directional_albedo(test::lambert({0.2, 0.5, 1}));
+  const AlbedoCurve curve = directional_albedo(Lambert({0.2, 0.5, 1}));
   ASSERT_EQ(curve.albedo.rows(), 90);
   EXPECT_LT((curve.albedo.col(0) / 0.2 - 1).abs().maxCoeff(), kRounding);
   EXPECT_LT((curve.albedo.col(2) - 1).abs().maxCoeff(), kRounding);
@@ -27,7 +29,7 @@ TEST(Albedo, GgxAgreesWithAFineReference) {
   constexpr double kStatedGrazing = 3e-6;  ///< at 88 degrees
   const Eigen::ArrayXd angles = Eigen::ArrayXd{{0, 30, 60, 80, 85, 88}} * kDegree;
   for (const double alpha : {0.005, 0.02, 0.1, 0.5, 1.0}) {
-    const auto brdf = test::mirror_ggx(alpha);
+    const auto brdf = Ggx(Rgb::Ones(), alpha);
     const RgbRows fine = directional_albedo(brdf, angles, {.polar = 150, .azimuth = 2001}).albedo;
     const Eigen::ArrayXd error = (directional_albedo(brdf, angles).albedo.col(0) / fine.col(0) - 1).abs();
     EXPECT_LT(error.head(5).maxCoeff(), kStated) << alpha;
@@ -38,7 +40,7 @@ TEST(Albedo, GgxAgreesWithAFineReference) {
 // Brute force in the angles of wi, a rule with nothing in common with the half vector's.
 TEST(Albedo, GgxAgreesWithBruteForce) {
   constexpr double kMidpoint = 2e-5;  ///< relative error of the 1000 x 1000 midpoint rule
-  const auto brdf = test::mirror_ggx(0.3);
+  const auto brdf = Ggx(Rgb::Ones(), 0.3);
   const double theta_o = 50 * kDegree;
   const Vec3 wo(std::sin(theta_o), 0, std::cos(theta_o));
   constexpr int kSteps = 1000;
@@ -60,7 +62,7 @@ TEST(Albedo, RefusesAnisotropyAndTheHorizon) {
   const test::FunctionBrdf brushed([](const Vec3&, const Vec3&) -> Rgb { return Rgb::Zero(); },
                                    {.reciprocal = true, .isotropic = false});
   EXPECT_THROW((void)directional_albedo(brushed), std::invalid_argument);
-  EXPECT_THROW((void)directional_albedo(test::lambert(Rgb::Ones()), Eigen::ArrayXd::Constant(1, 90 * kDegree)),
+  EXPECT_THROW((void)directional_albedo(Lambert(Rgb::Ones()), Eigen::ArrayXd::Constant(1, 90 * kDegree)),
                std::domain_error);
 }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/analytic/ggx.hpp"
+#include "brdf/analytic/lambert.hpp"
 #include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
@@ -14,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kRounding = 1e-13;  ///< of a double sum of 2048 positive terms
-constexpr double kFloatSum = 2e-5;  ///< relative, of a float sum of 2048 positive terms
+constexpr double kFloatSum = 2e-5;   ///< relative, of a float sum of 2048 positive terms
 
 Environment constant(double radiance) {
   return [=](const Vec3&) -> Rgb { return Rgb::Constant(radiance); };
@@ -62,7 +64,7 @@ TEST(Hemisphere, RefusesGrazingAndTooFewNodes) {
 }
 
 TEST(Sphere, WhiteFurnaceShowsTheAlbedo) {
-  const Image image = render_sphere(test::lambert({0.2, 0.5, 1.0}), small(constant(1), Rgb::Zero()));
+  const Image image = render_sphere(Lambert({0.2, 0.5, 1.0}), small(constant(1), Rgb::Zero()));
   for (const auto& [row, column] : {std::pair{16, 16}, {3, 16}, {20, 31}, {16, 0}}) {
     EXPECT_NEAR(image.at(row, column, 0), 0.2, 0.2 * kFloatSum);
     EXPECT_NEAR(image.at(row, column, 1), 0.5, 0.5 * kFloatSum);
@@ -73,7 +75,7 @@ TEST(Sphere, WhiteFurnaceShowsTheAlbedo) {
 TEST(Sphere, DirectionalLightFollowsTheCosine) {
   SphereOptions options = small(constant(0), {3, 2, 1});
   options.light_direction = Vec3(-1, 2, 0.5);
-  const Image image = render_sphere(test::lambert(Rgb::Constant(0.8)), options);
+  const Image image = render_sphere(Lambert(Rgb::Constant(0.8)), options);
   for (const auto& [row, column] : {std::pair{16, 16}, {3, 12}, {10, 2}, {30, 16}}) {
     const double cosine = normal_at(row, column, 33).dot(options.light_direction.normalized());
     EXPECT_NEAR(image.at(row, column, 0), 3 * 0.8 / pi * std::max(0.0, cosine), 1e-6) << row << ' ' << column;
@@ -87,7 +89,7 @@ TEST(Sphere, SharpLobeMirrorsTheEnvironment) {
   const auto sky = [](const Vec3& w) -> Rgb { return Rgb(2 + w.x(), 2 + w.y(), 2 - w.z()); };
   SphereOptions options = small(sky, Rgb::Zero());
   options.size = 129;
-  const Image image = render_sphere(test::mirror_ggx(0.01), options);
+  const Image image = render_sphere(Ggx(Rgb::Ones(), 0.01), options);
   for (const auto& [row, column] : {std::pair{64, 64}, {40, 64}, {64, 100}, {90, 30}}) {
     const Vec3 n = normal_at(row, column, 129);
     const Rgb expected = sky(2 * n.z() * n - Vec3::UnitZ());
@@ -98,7 +100,7 @@ TEST(Sphere, SharpLobeMirrorsTheEnvironment) {
 TEST(Sphere, BytesDoNotDependOnThreads) {
   SphereOptions options;
   options.size = 48;
-  const auto brdf = test::mirror_ggx(0.2);
+  const auto brdf = Ggx(Rgb::Ones(), 0.2);
   const Image image = render_sphere(brdf, options);
   for (const std::size_t threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -111,7 +113,7 @@ TEST(Sphere, SwappingDirectionsShowsReciprocity) {
   options.size = 24;
   SphereOptions swapped = options;
   swapped.swap_directions = true;
-  const auto reciprocal = test::lambert({0.3, 0.4, 0.5});
+  const auto reciprocal = Lambert({0.3, 0.4, 0.5});
   EXPECT_EQ(render_sphere(reciprocal, options).rgb, render_sphere(reciprocal, swapped).rgb);
   const test::FunctionBrdf skewed([](const Vec3& wo, const Vec3&) -> Rgb { return Rgb::Constant(wo.z()); });
   EXPECT_NE(render_sphere(skewed, options).rgb, render_sphere(skewed, swapped).rgb);
@@ -121,7 +123,7 @@ TEST(Sphere, BackgroundAndOutline) {
   SphereOptions options = small(constant(1), Rgb::Zero());
   options.radius = 0.5;
   options.supersampling = 4;
-  const Image image = render_sphere(test::lambert(Rgb::Constant(1)), options);
+  const Image image = render_sphere(Lambert(Rgb::Constant(1)), options);
   EXPECT_EQ(image.at(0, 0, 0), static_cast<float>(options.background(0)));
   double coverage = 0;
   for (int row = 0; row < 33; ++row) {
@@ -139,7 +141,7 @@ TEST(Sphere, ProgressRisesToOneAndCanInterrupt) {
     EXPECT_GT(share, last);
     last = share;
   };
-  const auto brdf = test::lambert(Rgb::Constant(0.5));
+  const auto brdf = Lambert(Rgb::Constant(0.5));
   (void)render_sphere(brdf, options);
   EXPECT_EQ(last, 1);
   options.progress = [](double) { throw std::runtime_error("stop"); };
@@ -147,7 +149,7 @@ TEST(Sphere, ProgressRisesToOneAndCanInterrupt) {
 }
 
 TEST(Sphere, RefusesWhatItCannotShow) {
-  const auto brdf = test::lambert(Rgb::Constant(0.5));
+  const auto brdf = Lambert(Rgb::Constant(0.5));
   SphereOptions options;
   options.size = 0;
   EXPECT_THROW((void)render_sphere(brdf, options), std::invalid_argument);
