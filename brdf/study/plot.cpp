@@ -66,7 +66,7 @@ void draw_lines(Canvas& canvas, const Box& box, const LinePlot& plot, const Axis
   for (const Line& line : plot.lines) {
     std::vector<Point> points;
     const auto flush = [&] {
-      canvas.line(points, line.colour, 1.8, line.dashed);
+      canvas.line(points, line.colour, line.width, line.dashed);
       points.clear();
     };
     for (std::size_t n = 0; n < line.x.size(); ++n) {
@@ -172,7 +172,7 @@ std::vector<Line> legend_of(const std::vector<Panel>& panels) {
     for (const Line& line : plot->lines) {
       const bool known =
           std::any_of(entries.begin(), entries.end(), [&](const Line& e) { return e.label == line.label; });
-      if (!line.label.empty() && !known) entries.push_back({line.label, {}, {}, line.colour, line.dashed});
+      if (!line.label.empty() && !known) entries.push_back({line.label, {}, {}, line.colour, line.dashed, line.width});
     }
   }
   return entries;
@@ -186,7 +186,7 @@ void draw_legend(Canvas& canvas, Point centre, const std::vector<Line>& entries)
   double x = centre.x - width / 2;
   for (const Line& entry : entries) {
     const double y = centre.y - 0.35 * kLabel.size;
-    canvas.line({{x, y}, {x + kSample, y}}, entry.colour, 2.4, entry.dashed);
+    canvas.line({{x, y}, {x + kSample, y}}, entry.colour, entry.width, entry.dashed);
     canvas.text({x + kSample + 6, centre.y}, entry.label, kLabel);
     x += kSample + 6 + canvas.text_width(entry.label, kLabel) + kGap;
   }

@@ -19,6 +19,7 @@ struct Line {
   std::vector<double> x = {}, y = {};
   Colour colour{0, 0, 0};
   bool dashed = false;
+  double width = 1.6;
 };
 
 /// Joined points; a point that an axis cannot show breaks its line.
