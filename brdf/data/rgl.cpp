@@ -69,8 +69,9 @@ std::vector<double> read_theta_i(const TensorFile& file) {
   if (azimuths > 2) {
     file.fail("is anisotropic (" + std::to_string(azimuths) + " values of phi_i); only isotropic files are read");
   }
-  if (!file.has("rgb") && file.has("wavelengths"))
+  if (!file.has("rgb") && file.has("wavelengths")) {
     file.fail("holds spectra and no field 'rgb'; only RGB files are read");
+  }
   const FloatTensor tensor = file.floats("theta_i", 1);
   const std::vector<double> theta_i(tensor.values.begin(), tensor.values.end());
   const bool ascending = std::adjacent_find(theta_i.begin(), theta_i.end(), std::greater_equal<>()) == theta_i.end();
