@@ -19,6 +19,7 @@ struct Common {
 void finish_command(CLI::App& command, Common& common, std::function<void()> job);
 
 void add_families(CLI::App& parent, Common& common);
+void add_copula_fit(CLI::App& parent, Common& common);
 void add_copula_sample(CLI::App& parent, Common& common);
 void add_copula_table(CLI::App& parent, Common& common);
 

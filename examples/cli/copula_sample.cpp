@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "copula/inference/csv.hpp"
 #include "copula/random.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/text.hpp"
@@ -43,7 +44,7 @@ void run(const Options& options, const Common& common) {
   const Points u = copula->sample(options.n, rng, given);
   std::vector<std::string> columns;
   for (int k = 1; k <= options.dim; ++k) columns.push_back("u" + std::to_string(k));
-  write_output(options.output, common.json ? json_text(options, theta, common.seed, columns, u) : csv(columns, u));
+  write_output(options.output, common.json ? json_text(options, theta, common.seed, columns, u) : to_csv(columns, u));
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ void run(CLI::App& app, int argc, char** argv) {
   CLI::App* copula = app.add_subcommand("copula", "evaluate, sample and fit copulas")->require_subcommand(1);
   add_copula_table(*copula, common);
   add_copula_sample(*copula, common);
+  add_copula_fit(*copula, common);
 
   app.parse(argc, argv);
   const auto threads = common.threads > 0 ? static_cast<unsigned>(common.threads) : std::thread::hardware_concurrency();

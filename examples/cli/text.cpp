@@ -8,6 +8,7 @@
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "families/registry.hpp"
 
 namespace sklar::cli {
 
@@ -18,9 +19,21 @@ std::string digits(double value) {
   return buffer;
 }
 
+std::string digits(const std::vector<double>& values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "" : " ") + digits(value);
+  return out;
+}
+
 nlohmann::ordered_json json_number(double value) {
   if (std::isfinite(value)) return value;
   return to_text(value);
+}
+
+nlohmann::ordered_json json_numbers(const std::vector<double>& values) {
+  auto array = nlohmann::ordered_json::array();
+  for (const double value : values) array.push_back(json_number(value));
+  return array;
 }
 
 std::optional<double> parse_number(std::string_view text) {
@@ -73,18 +86,14 @@ std::string csv_field(std::string_view field) {
   return field.find_first_of(",\"") == std::string_view::npos ? std::string(field) : in_quotes(field);
 }
 
-std::string csv(const std::vector<std::string>& header, const PointsRef& rows) {
-  std::string out;
-  for (const std::string& name : header) out += (out.empty() ? "" : ",") + name;
-  out += '\n';
-  for (Index row = 0; row < rows.rows(); ++row) {
-    for (Index column = 0; column < rows.cols(); ++column) {
-      if (column > 0) out += ',';
-      out += digits(rows(row, column));
-    }
-    out += '\n';
+std::vector<const FamilyInfo*> parse_families(std::string_view names) {
+  std::vector<const FamilyInfo*> chosen;
+  if (names == "all") {
+    for (const FamilyInfo& family : families::all()) chosen.push_back(&family);
+  } else {
+    for (const std::string& name : split_csv(names)) chosen.push_back(&families::find(name));
   }
-  return out;
+  return chosen;
 }
 
 void write_output(const std::string& path, std::string_view text) {

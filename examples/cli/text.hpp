@@ -7,15 +7,19 @@
 #include <string_view>
 #include <vector>
 
-#include "copula/types.hpp"
+#include "copula/family.hpp"
 
 namespace sklar::cli {
 
 /// 17 significant digits; -inf, inf and nan spelt so.
 [[nodiscard]] std::string digits(double value);
 
+/// Several, with blanks between.
+[[nodiscard]] std::string digits(const std::vector<double>& values);
+
 /// A JSON number, or one of the strings "-inf", "inf", "nan".
 [[nodiscard]] nlohmann::ordered_json json_number(double value);
+[[nodiscard]] nlohmann::ordered_json json_numbers(const std::vector<double>& values);
 
 /// The nearest double of the whole text; empty for anything else. Beyond the range: 0 or an infinity.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
@@ -32,8 +36,8 @@ namespace sklar::cli {
 /// The field as CSV: in quotes where it holds a comma or a quote.
 [[nodiscard]] std::string csv_field(std::string_view field);
 
-/// A header and rows as CSV.
-[[nodiscard]] std::string csv(const std::vector<std::string>& header, const PointsRef& rows);
+/// The families of a list of names separated by commas; `all` is every one. @throws std::invalid_argument
+[[nodiscard]] std::vector<const FamilyInfo*> parse_families(std::string_view names);
 
 /// To standard output, or, where path is not empty, to a file, whole or not at all. @throws FileError
 void write_output(const std::string& path, std::string_view text);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "families/registry.hpp"
 #include "tests/cli/run_command.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 using Command = CommandTest;
 using Families = CommandTest;
+using CopulaFit = CommandTest;
 using CopulaSample = CommandTest;
 using CopulaTable = CommandTest;
 
@@ -19,7 +21,7 @@ const std::string kHeader = "family,theta,quantity,d,u\n";
 const std::string kHeaderExpected = "family,theta,quantity,d,u,expected\n";
 
 TEST_F(Command, EverySubcommandHasHelpAndTheCommonOptions) {
-  for (const std::string command : {"families", "copula table", "copula sample"}) {
+  for (const std::string command : {"families", "copula table", "copula sample", "copula fit"}) {
     const Result result = run(command + " --help");
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_EQ(result.err, "") << command;
@@ -33,7 +35,7 @@ TEST_F(Command, WrongUsageIsStatus2) {
   for (const std::string arguments :
        {"", "copula", "nonsense", "families --nonsense", "families --threads 0", "families --seed x",
         "copula sample --family independence", "copula sample -n ten", "copula sample -n 1 --theta 1 --tau .5",
-        "copula table"}) {
+        "copula table", "copula fit", "copula fit data.csv --method x", "copula fit data.csv --margins x"}) {
     expect_usage_error(arguments);
   }
 }
@@ -151,6 +153,49 @@ TEST_F(CopulaTable, RefusesABadRowWithItsLine) {
 TEST_F(CopulaTable, RefusesWhatIsNoFile) {
   expect_refused("copula table missing.csv", "missing.csv: no such file");
   expect_refused("copula table .", "is a directory");
+}
+
+TEST_F(CopulaFit, RecoversTheFamilyOfASample) {
+  for (const FamilyInfo& family : families::all()) {
+    if (family.parameters.size() != 1) continue;
+    ASSERT_EQ(run("copula sample --family " + family.name + " --tau 0.3 -n 4000 -o data.csv").status, 0);
+    for (const std::string method : {"ml", "ls", "tau"}) {
+      const Result result = run("copula fit data.csv --method " + method + " --json --families " + family.name);
+      ASSERT_EQ(result.status, 0) << result.err;
+      const auto document = nlohmann::json::parse(result.out);
+      EXPECT_EQ(document["best"], family.name);
+      const auto& fitted = document["families"].at(0);
+      // Kendall's tau of n observations has a standard error of about 0.7 / sqrt(n) = 0.011; least squares sees the
+      // coarse histogram of them.
+      EXPECT_NEAR(fitted["tau"].get<double>(), 0.3, method == "ls" ? 0.1 : 0.044) << family.name << " " << method;
+      EXPECT_EQ(fitted["theta"].size(), 1u);
+      for (const std::string key : {"name", "loglik", "aic", "bic", "se", "status", "evaluations"}) {
+        EXPECT_TRUE(fitted.contains(key)) << key;
+      }
+    }
+  }
+}
+
+TEST_F(CopulaFit, PrintsTheBestFirst) {
+  ASSERT_EQ(run("copula sample --family frank --tau 0.5 -n 500 -o data.csv").status, 0);
+  const Result result = run("copula fit data.csv --families independence,frank");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("name,theta,tau,loglik,aic,bic,se,status,evaluations,message\nfrank,"))
+      << result.out;
+  EXPECT_NE(result.out.find("\nindependence,,"), std::string::npos) << result.out;
+}
+
+TEST_F(CopulaFit, RefusesBadData) {
+  write("data.csv", "x,y\n1,2\n3,nan\n");
+  expect_refused("copula fit data.csv -o out.csv", "data.csv: line 3: every value must be finite");
+  write("data.csv", "x,y\n1,2\n3\n");
+  expect_refused("copula fit data.csv -o out.csv", "line 3");
+  write("data.csv", "x\n1\n2\n");
+  expect_refused("copula fit data.csv -o out.csv", "columns");
+  write("data.csv", "x,y\n0.5,0.5\n0.25,1.5\n");
+  expect_refused("copula fit data.csv --margins none -o out.csv", "1.5");
+  expect_refused("copula fit data.csv --families frank,x -o out.csv", "unknown family 'x'; known families: ");
+  expect_refused("copula fit missing.csv", "missing.csv: no such file");
 }
 
 }  // namespace
