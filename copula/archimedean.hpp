@@ -6,6 +6,7 @@
 /// another.
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -72,7 +73,11 @@ class Archimedean final : public ArchimedeanCopula {
   // Calls answer(row) for each row without NaN; a row with NaN gives NaN.
   template <class Answer>
   static void for_each_row(const PointsRef& u, ColumnOut out, const Answer& answer) {
-    std::vector<double> row(static_cast<std::size_t>(u.cols()));
+    constexpr std::size_t kOnStack = 16;
+    const auto columns = static_cast<std::size_t>(u.cols());
+    std::array<double, kOnStack> small;
+    std::vector<double> large(columns > kOnStack ? columns : 0);
+    const std::span<double> row(columns > kOnStack ? large.data() : small.data(), columns);
     for (Index i = 0; i < u.rows(); ++i) {
       bool missing = false;
       for (Index k = 0; k < u.cols(); ++k) {

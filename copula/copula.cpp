@@ -1,5 +1,6 @@
 #include "copula/copula.hpp"
 
+#include <cassert>
 #include <cmath>
 
 #include "copula/error.hpp"
@@ -28,6 +29,13 @@ Column Copula::log_pdf(const PointsRef& u) const {
   require_points("log_pdf", u, dim_, dim_);
   Column out(u.rows());
   log_pdf_into(u, out);
+  return out;
+}
+
+double Copula::log_pdf_at(std::span<const double> u) const {
+  assert(static_cast<int>(u.size()) == dim_);
+  double out;
+  log_pdf_into(Eigen::Map<const Points>(u.data(), 1, dim_), Eigen::Map<Column>(&out, 1));
   return out;
 }
 

@@ -3,6 +3,7 @@
 /// call.
 
 #include <memory>
+#include <span>
 
 #include "copula/random.hpp"
 #include "copula/types.hpp"
@@ -21,6 +22,9 @@ class Copula {
   /// @throws std::invalid_argument (columns), std::domain_error (u outside [0,1]); so do all calls below.
   [[nodiscard]] Column log_pdf(const PointsRef& u) const;
   [[nodiscard]] Column pdf(const PointsRef& u) const;
+
+  /// The same for one point, without heap allocation up to dimension 16. @param u d values in [0,1] or NaN; unchecked.
+  [[nodiscard]] double log_pdf_at(std::span<const double> u) const;
 
   /// C(u) and its natural log. @param u n x d in [0,1].
   [[nodiscard]] Column log_cdf(const PointsRef& u) const;
