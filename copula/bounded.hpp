@@ -37,17 +37,18 @@ struct Bounded {
   Bounded& operator*=(const Bounded& b) { return *this = *this * b; }
   Bounded& operator/=(const Bounded& b) { return *this = *this / b; }
 
-  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.error}; }
+  // always_inline: GCC 12 otherwise leaves calls, a third of the time of a log density.
+  [[gnu::always_inline]] friend inline Bounded operator-(const Bounded& a) { return {Real(-a.value), a.error}; }
 
-  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+  [[gnu::always_inline]] friend inline Bounded operator+(const Bounded& a, const Bounded& b) {
     using std::abs, std::isfinite;
     const Real v = a.value + b.value;
     const Real e = a.error + b.error + operation() * abs(v);
     return isfinite(e) ? Bounded(v, e) : infinite_result(v, a, b);
   }
-  friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
+  [[gnu::always_inline]] friend inline Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
 
-  friend Bounded operator*(const Bounded& a, const Bounded& b) {
+  [[gnu::always_inline]] friend inline Bounded operator*(const Bounded& a, const Bounded& b) {
     using std::abs, std::isfinite;
     const Real v = a.value * b.value;
     const Real e = abs(a.value) * b.error + (abs(b.value) + b.error) * a.error + operation() * abs(v) + underflow();
@@ -55,7 +56,7 @@ struct Bounded {
     return v == 0 && (exactly_zero(a) || exactly_zero(b)) ? Bounded(0) : Bounded(v, e);
   }
 
-  friend Bounded operator/(const Bounded& a, const Bounded& b) {
+  [[gnu::always_inline]] friend inline Bounded operator/(const Bounded& a, const Bounded& b) {
     using std::abs, std::isfinite;
     const Real v = a.value / b.value;
     const Real divisor = abs(b.value) - b.error;
