@@ -1,15 +1,13 @@
 #include "copula/inference/model_io.hpp"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "copula/inference/json_fields.hpp"
 
 namespace sklar {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using json::Json;
 
 constexpr std::string_view kFormat = "sklar copula";
 
@@ -30,56 +28,16 @@ Json to_json_value(const EmpiricalMarginal& margin) {
   return {{"kind", "empirical"}, {"values", margin.sorted()}};
 }
 
-const Json& field(const Json& object, const char* name) {
-  const auto found = object.find(name);
-  if (found == object.end()) throw std::invalid_argument("field '" + std::string(name) + "' is missing");
-  return *found;
-}
-
-std::string text(const Json& object, const char* name) {
-  const Json& value = field(object, name);
-  if (!value.is_string()) throw std::invalid_argument("field '" + std::string(name) + "' must be a text");
-  return value.get<std::string>();
-}
-
-std::vector<double> numbers(const Json& object, const char* name) {
-  const Json& value = field(object, name);
-  const bool valid =
-      value.is_array() && std::all_of(value.begin(), value.end(), [](const Json& entry) { return entry.is_number(); });
-  if (!valid) throw std::invalid_argument("field '" + std::string(name) + "' must be an array of numbers");
-  return value.get<std::vector<double>>();
-}
-
-int integer(const Json& object, const char* name) {
-  const Json& value = field(object, name);
-  if (!value.is_number_integer() || value < 0 || value > 1'000'000) {
-    throw std::invalid_argument("field '" + std::string(name) + "' must be a whole number in 0 to 1000000, found " +
-                                value.dump());
-  }
-  return value.get<int>();
-}
-
 StoredMarginal margin_from(const Json& object) {
-  const auto kind = text(object, "kind");
+  const auto kind = json::text(object, "kind");
   if (kind == "histogram") {
-    return HistogramMarginal(numbers(object, "edges"), numbers(object, "masses"));
+    return HistogramMarginal(json::numbers(object, "edges"), json::numbers(object, "masses"));
   }
   if (kind == "empirical") {
-    const auto values = numbers(object, "values");
+    const auto values = json::numbers(object, "values");
     return EmpiricalMarginal(Eigen::Map<const Column>(values.data(), static_cast<Index>(values.size())));
   }
   throw std::invalid_argument("unknown kind '" + kind + "'; known kinds: histogram, empirical");
-}
-
-void require_format(const Json& json) {
-  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
-    throw std::invalid_argument("is not a copula model: expected \"format\": \"" + std::string(kFormat) + "\"");
-  }
-  const int version = integer(json, "version");
-  if (version < 1 || version > kModelVersion) {
-    throw std::invalid_argument("has version " + std::to_string(version) + "; this program reads versions 1 to " +
-                                std::to_string(kModelVersion));
-  }
 }
 
 void require_margins(const CopulaModel& model) {
@@ -89,12 +47,13 @@ void require_margins(const CopulaModel& model) {
 }
 
 CopulaModel model_from(const Json& json, std::span<const FamilyInfo> families) {
-  require_format(json);
-  CopulaModel model{
-      .family = text(json, "family"), .dim = integer(json, "dim"), .theta = numbers(json, "theta"), .margins = {}};
+  json::require_format(json, kFormat, kModelVersion);
+  CopulaModel model{.family = json::text(json, "family"),
+                    .dim = json::integer(json, "dim"),
+                    .theta = json::numbers(json, "theta"),
+                    .margins = {}};
   find_family(model.family, families).require_admissible(model.dim, model.theta);
-  const Json& margins = field(json, "margins");
-  if (!margins.is_array()) throw std::invalid_argument("field 'margins' must be an array");
+  const Json& margins = json::array(json, "margins");
   for (std::size_t i = 0; i < margins.size(); ++i) {
     try {
       model.margins.push_back(margin_from(margins[i]));
@@ -118,13 +77,7 @@ std::string to_json(const CopulaModel& model) {
 }
 
 CopulaModel parse_model(std::string_view json, std::string_view source, std::span<const FamilyInfo> families) {
-  try {
-    return model_from(Json::parse(json), families);
-  } catch (const Json::parse_error& error) {
-    throw FileError(source, "is not valid JSON: byte " + std::to_string(error.byte));
-  } catch (const std::logic_error& error) {
-    throw FileError(source, error.what());
-  }
+  return json::parse(json, source, [&](const Json& document) { return model_from(document, families); });
 }
 
 CopulaModel read_model(const std::filesystem::path& path, std::span<const FamilyInfo> families) {

@@ -61,7 +61,7 @@ TEST(ModelIo, NamesWhatIsWrong) {
   const std::string head = R"({"format":"sklar copula","version":1,"family":")" + name + R"(",)";
   EXPECT_EQ(failure(""), "model.json: is not valid JSON: byte 1");
   EXPECT_EQ(failure(head), "model.json: is not valid JSON: byte " + std::to_string(head.size() + 1));
-  EXPECT_EQ(failure("{}"), R"(model.json: is not a copula model: expected "format": "sklar copula")");
+  EXPECT_EQ(failure("{}"), R"(model.json: expected "format": "sklar copula")");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":2})"),
             "model.json: has version 2; this program reads versions 1 to 1");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":"1"})"),

@@ -1,0 +1,38 @@
+#pragma once
+/// Fields of a JSON document, checked. Every failure is an std::invalid_argument that names the field and what was
+/// found; parse turns it into a FileError. Include from .cpp files alone.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "copula/error.hpp"
+
+namespace sklar::json {
+
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] const Json& field(const Json& object, const char* name);
+[[nodiscard]] std::string text(const Json& object, const char* name);
+[[nodiscard]] double number(const Json& object, const char* name);
+[[nodiscard]] int integer(const Json& object, const char* name);  ///< 0 to 1000000
+[[nodiscard]] const Json& array(const Json& object, const char* name);
+[[nodiscard]] std::vector<double> numbers(const Json& object, const char* name);
+
+/// The document must say "format": format and "version": 1 to newest.
+void require_format(const Json& document, std::string_view format, int newest);
+
+/// convert(document). @param source names the text in errors. @throws FileError for anything wrong with the text.
+template <class Convert>
+[[nodiscard]] auto parse(std::string_view text, std::string_view source, const Convert& convert) {
+  try {
+    return convert(Json::parse(text));
+  } catch (const Json::parse_error& error) {
+    throw FileError(source, "is not valid JSON: byte " + std::to_string(error.byte));
+  } catch (const std::logic_error& error) {
+    throw FileError(source, error.what());
+  }
+}
+
+}  // namespace sklar::json
