@@ -1,0 +1,36 @@
+#pragma once
+/// A fitted BRDF model as versioned JSON; every number survives the round trip bit for bit.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "brdf/data/measured_table.hpp"
+#include "brdf/model/paper_brdf.hpp"
+#include "copula/inference/fit.hpp"
+
+namespace sklar::brdf {
+
+/// A model and what it was fitted to.
+struct StoredBrdf {
+  std::string material;
+  Provenance provenance = Provenance::unknown;
+  FitMethod method = FitMethod::least_squares;
+  std::shared_ptr<const PaperBrdf> brdf;
+};
+
+/// The newest version written and read.
+inline constexpr int kBrdfModelVersion = 1;
+
+/// {"format": "sklar brdf", "version": 1, "mode": "paper", "material", "provenance", "family", "method", "measure",
+/// "red": [slices], "green", "blue"} with slices {"theta": [..], "scale", "theta_h": [masses], "theta_d", "phi_d"}.
+[[nodiscard]] std::string to_json(const StoredBrdf& model);
+
+/// @param source names the text in errors. @throws FileError naming the source and the field: not JSON, not this
+/// format, a newer version, a field missing or of the wrong type, an unknown family, values that PaperBrdf refuses.
+[[nodiscard]] StoredBrdf parse_brdf(std::string_view json, std::string_view source);
+
+/// parse_brdf of a file. @throws FileError also for a missing file or a directory.
+[[nodiscard]] StoredBrdf read_brdf(const std::filesystem::path& path);
+
+}  // namespace sklar::brdf
