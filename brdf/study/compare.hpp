@@ -1,0 +1,50 @@
+#pragma once
+/// Families compared on one material: fitted, measured and drawn by the same code.
+
+#include <functional>
+#include <limits>
+
+#include "brdf/model/paper_fit.hpp"
+#include "brdf/study/figures.hpp"
+
+namespace sklar::brdf {
+
+/// One model on one material. Figures are NaN where error says why there is no model.
+struct CompareRow {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::string material = {};
+  Provenance provenance = Provenance::unknown;
+  std::string model = "copula";
+  std::string family = {};
+  std::string mode = "paper";
+  std::size_t bytes = 0;     ///< Brdf::bytes
+  double fit_s = kNone;      ///< wall clock, all threads
+  double eval_ns = kNone;    ///< RGB, in a batch, one thread; see evaluation_ns
+  double log1p_mae = kNone;  ///< this and the next three: CellErrors, mean over channels
+  double logrel_mae = kNone;
+  double cuberoot_rms = kNone;
+  double rel_l2 = kNone;
+  double sphere_psnr_linear_db = kNone;          ///< mean over channels
+  double albedo_max = kNone;                     ///< of albedo_angles() and the channels
+  std::array<std::vector<Theta>, 3> theta = {};  ///< a channel, a slice; empty in black slices
+  std::string error = {};
+};
+
+struct Comparison {
+  std::vector<CompareRow> rows;                ///< in the order of the families
+  std::vector<std::filesystem::path> figures;  ///< as write_figures names them
+};
+
+/// Fits every family, measures it against the table and writes the figures FOLDER/MATERIAL_*.png.
+/// @param progress called with what is being done, for a person to read.
+/// @throws FileError for a folder that cannot be written; what fit_paper throws for a bad table.
+[[nodiscard]] Comparison compare_families(std::shared_ptr<const MeasuredTable> table,
+                                          std::span<const FamilyInfo* const> families, const PaperFitOptions& options,
+                                          const std::filesystem::path& folder,
+                                          const std::function<void(const std::string&)>& progress = {});
+
+/// Nanoseconds a RGB value in batches of 4096 seeded random direction pairs: median of nine batches, hot cache.
+[[nodiscard]] double evaluation_ns(const Brdf& brdf);
+
+}  // namespace sklar::brdf
