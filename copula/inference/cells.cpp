@@ -1,5 +1,6 @@
 #include "copula/inference/cells.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -87,6 +88,44 @@ CellTable count_cells(const PointsRef& u, const ColumnRef& weights, Index bins) 
     counts[cell] += weights.size() == 0 ? 1.0 : weights[row];
   }
   return cell_table(counts, std::vector<Index>(static_cast<std::size_t>(u.cols()), bins));
+}
+
+std::vector<double> spread_positions(Index n) {
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  std::vector<double> positions;
+  positions.reserve(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) {
+    const double turns = (static_cast<double>(i) + 0.5) * kGoldenRatio;
+    positions.push_back(turns - std::floor(turns));
+  }
+  return positions;
+}
+
+CellTable sample_cells(const CellTable& cells, Index most) {
+  const Index n = cells.mass.size();
+  if (n <= most) return cells;
+  const Column weight = cells.weight.size() == 0 ? Column(Column::Ones(n)) : cells.weight;
+  const Column probability = 0.5 * (weight > 0).select(1 / static_cast<double>(n) + cells.mass / cells.mass.sum(), 0.0);
+  std::vector<double> positions = spread_positions(most);
+  std::sort(positions.begin(), positions.end());
+  const double total = probability.sum();
+  std::vector<Index> chosen;
+  std::vector<double> chosen_weight;
+  double below = 0;
+  auto next = positions.begin();
+  for (Index cell = 0; cell < n && next != positions.end(); ++cell) {
+    below += probability[cell] / total;
+    const auto first = next;
+    while (next != positions.end() && *next < below) ++next;
+    if (next == first) continue;
+    const auto hits = static_cast<double>(next - first);
+    chosen.push_back(cell);
+    chosen_weight.push_back(weight[cell] * hits * total / (static_cast<double>(most) * probability[cell]));
+  }
+  return {.u = cells.u(chosen, Eigen::all),
+          .mass = cells.mass(chosen),
+          .margin = cells.margin(chosen),
+          .weight = Eigen::Map<const Column>(chosen_weight.data(), static_cast<Index>(chosen_weight.size()))};
 }
 
 }  // namespace sklar

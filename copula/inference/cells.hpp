@@ -2,6 +2,7 @@
 /// A table of masses seen as a histogram: what least squares fits (paper Eqs. 9 to 12 and 17).
 
 #include <span>
+#include <vector>
 
 #include "copula/types.hpp"
 
@@ -29,5 +30,14 @@ struct CellTable {
 [[nodiscard]] CellTable count_cells(const PointsRef& u, const ColumnRef& weights, Index bins);
 
 inline constexpr Index kMostCells = Index{1} << 24;
+
+/// At most `most` cells whose weighted sums estimate those of the whole table: half of them chosen evenly, half by
+/// mass, so that a peak of few cells is seen. Always the same ones. A table that is small enough is returned whole.
+/// @param most >= 1.
+[[nodiscard]] CellTable sample_cells(const CellTable& cells, Index most);
+
+/// The fractional parts of (i + 1/2) times the golden ratio, i < n: positions in [0,1) spread evenly without a period
+/// that a grid could share.
+[[nodiscard]] std::vector<double> spread_positions(Index n);
 
 }  // namespace sklar

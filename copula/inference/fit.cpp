@@ -11,11 +11,12 @@
 namespace sklar {
 namespace {
 
-/// What a row (of mean weight) without a finite term adds to a mean objective: far above any row's finite term.
+/// What a row without a finite term adds to the objective, in log densities or in sums of squares without a model: far
+/// above any finite term.
 constexpr double kBrokenRow = 1e6;
 
-/// Cells carry less each than rows: the lattice is compared on this many times more of them.
-constexpr Index kCellsPerStartRow = 10;
+/// Least squares compares its lattice on this many times more cells than likelihood has rows at its start.
+constexpr Index kCellsPerStartRow = 2;
 
 void require_cells(const CellTable& cells) {
   constexpr std::string_view kFunction = "fit_least_squares";
@@ -33,22 +34,22 @@ void require_cells(const CellTable& cells) {
   }
 }
 
-/// At most `most` rows of positive weight: all, or a golden-ratio sequence of them, which follows no period of the
-/// data.
+/// At most `most` rows of positive weight: all, or evenly spread ones.
 std::vector<Index> subset(const ColumnRef& weights, Index rows, Index most) {
-  std::vector<Index> kept;
-  kept.reserve(static_cast<std::size_t>(rows));
-  for (Index row = 0; row < rows; ++row) {
-    if (weights.size() == 0 || weights[row] > 0) kept.push_back(row);
+  std::vector<Index> positive;
+  for (Index row = 0; row < weights.size(); ++row) {
+    if (weights[row] > 0) positive.push_back(row);
   }
-  const auto n = static_cast<Index>(kept.size());
-  if (n <= most) return kept;
-  constexpr double kGoldenRatio = 0.6180339887498949;
+  const bool weighted = weights.size() > 0;
+  const Index n = weighted ? static_cast<Index>(positive.size()) : rows;
+  const auto row_at = [&](Index i) { return weighted ? positive[static_cast<std::size_t>(i)] : i; };
   std::vector<Index> chosen;
-  for (Index i = 0; i < most; ++i) {
-    const double turns = (static_cast<double>(i) + 0.5) * kGoldenRatio;
-    const auto place = static_cast<Index>((turns - std::floor(turns)) * static_cast<double>(n));
-    chosen.push_back(kept[static_cast<std::size_t>(std::min(place, n - 1))]);
+  if (n <= most) {
+    for (Index i = 0; i < n; ++i) chosen.push_back(row_at(i));
+  } else {
+    for (const double position : spread_positions(most)) {
+      chosen.push_back(row_at(static_cast<Index>(position * static_cast<double>(n))));
+    }
   }
   return chosen;
 }
@@ -57,18 +58,19 @@ Column pick(const ColumnRef& x, const std::vector<Index>& rows) {
   return x.size() == 0 ? Column() : Column(x(rows));
 }
 
-Evaluation likelihood_objective(const Copula& copula, const PointsRef& u, const ColumnRef& weights, double all,
+Evaluation likelihood_objective(const Copula& copula, const PointsRef& u, const ColumnRef& weights,
                                 const Chunking& chunking) {
   const RowSum sum = log_likelihood(copula, u, weights, chunking);
-  return {(kBrokenRow * sum.nonfinite_weight - sum.value) / all, sum.nonfinite};
+  return {kBrokenRow * sum.nonfinite_weight - sum.value, sum.nonfinite};
 }
 
 Evaluation cell_objective(const Copula& copula, const CellTable& cells, const Chunking& chunking) {
   const RowSum sum = squared_error(copula, cells, chunking);
-  const double weight = total_weight(cells.weight, cells.u.rows());
-  const double none = cells.weight.size() == 0 ? cells.mass.square().sum() : (cells.weight * cells.mass.square()).sum();
-  const double scale = none > 0 ? none : 1.0;
-  return {sum.value / scale + kBrokenRow * sum.nonfinite_weight / weight, sum.nonfinite};
+  if (sum.nonfinite == 0) return {sum.value, 0};
+  const double without_model =
+      cells.weight.size() == 0 ? cells.mass.square().sum() : (cells.weight * cells.mass.square()).sum();
+  const double share = sum.nonfinite_weight / total_weight(cells.weight, cells.u.rows());
+  return {sum.value + kBrokenRow * without_model * share, sum.nonfinite};
 }
 
 /// Mean tau of neighbouring columns: every pair of an exchangeable family has the same.
@@ -79,9 +81,8 @@ double neighbour_tau(const Points& u, const Column& weights) {
 }
 
 std::vector<double> likelihood_start(const Fitter& fitter, const Points& u, const Column& weights) {
-  const double all = total_weight(weights, u.rows());
   const CopulaObjective objective = [&](const Copula& copula) {
-    return likelihood_objective(copula, u, weights, all, fitter.chunking());
+    return likelihood_objective(copula, u, weights, fitter.chunking());
   };
   const double tau = fitter.scale().by_tau() && u.rows() > 1 ? neighbour_tau(u, weights) : FitResult::kNone;
   if (std::isfinite(tau)) {
@@ -127,13 +128,15 @@ FitResult fit_maximum_likelihood(const FamilyInfo& family, const PointsRef& u, c
   const std::vector<double> start = likelihood_start(fitter, u(rows, Eigen::all), pick(weights, rows));
   // About two sampling errors of the start.
   const double step = std::min(1.5 / std::sqrt(static_cast<double>(rows.size())), fitter.scale().spacing());
-  const double all = total_weight(weights, u.rows());
-  fitter.search([&](const Copula& copula) { return likelihood_objective(copula, u, weights, all, fitter.chunking()); },
+  fitter.search([&](const Copula& copula) { return likelihood_objective(copula, u, weights, fitter.chunking()); },
                 start, fitter.scale().by_tau() ? step : fitter.scale().spacing());
-  fitter.add_likelihood(u, weights);
+  FitResult& result = fitter.result();
+  // 0 - x, so that a likelihood of 0 has no sign.
+  fitter.set_likelihood(result.nonfinite == 0 ? 0 - result.objective : -std::numeric_limits<double>::infinity(),
+                        total_weight(weights, u.rows()));
+  result.objective = 0 - result.log_likelihood;
   if (options.standard_errors) fitter.add_standard_errors(u, weights);
-  fitter.result().objective = -fitter.result().log_likelihood;
-  return fitter.result();
+  return result;
 }
 
 FitResult fit_tau_inversion(const FamilyInfo& family, const PointsRef& u, const ColumnRef& weights,
@@ -167,18 +170,13 @@ FitResult fit_tau_inversion(const FamilyInfo& family, const PointsRef& u, const 
 FitResult fit_least_squares(const FamilyInfo& family, const CellTable& cells, const FitOptions& options) {
   require_cells(cells);
   Fitter fitter(family, FitMethod::least_squares, static_cast<int>(cells.u.cols()), options);
-  const std::vector<Index> rows = subset(cells.weight, cells.u.rows(), kCellsPerStartRow * options.start_rows);
-  const CellTable some{.u = cells.u(rows, Eigen::all),
-                       .mass = pick(cells.mass, rows),
-                       .margin = pick(cells.margin, rows),
-                       .weight = pick(cells.weight, rows)};
+  const CellTable some = sample_cells(cells, kCellsPerStartRow * options.start_rows);
   const std::vector<double> start =
       fitter.best_of_lattice([&](const Copula& copula) { return cell_objective(copula, some, fitter.chunking()); });
   fitter.search([&](const Copula& copula) { return cell_objective(copula, cells, fitter.chunking()); }, start,
                 0.5 * fitter.scale().spacing());
   FitResult& result = fitter.result();
   const CopulaPtr copula = fitter.copula(result.theta);
-  result.objective = squared_error(*copula, cells, fitter.chunking()).value;
   result.log_likelihood = log_likelihood(*copula, cells.u, cells.mass, fitter.chunking()).or_nothing();
   return result;
 }

@@ -64,6 +64,7 @@ void Fitter::search(const CopulaObjective& objective, const std::vector<double>&
   }
   z_ = minimum.z;
   set_theta(scale_.theta(z_));
+  result_.objective = minimum.best.value;
   judge(minimum);
 }
 
@@ -75,11 +76,15 @@ void Fitter::set_theta(Theta theta) {
 
 void Fitter::add_likelihood(const PointsRef& u, const ColumnRef& weights) {
   const RowSum sum = log_likelihood(*copula(result_.theta), u, weights, chunking());
-  const auto k = static_cast<double>(result_.theta.size());
   result_.nonfinite = sum.nonfinite;
-  result_.log_likelihood = sum.or_nothing();
-  result_.aic = 2 * k - 2 * result_.log_likelihood;
-  result_.bic = k * std::log(total_weight(weights, u.rows())) - 2 * result_.log_likelihood;
+  set_likelihood(sum.or_nothing(), total_weight(weights, u.rows()));
+}
+
+void Fitter::set_likelihood(double log_likelihood, double total_weight) {
+  const auto k = static_cast<double>(result_.theta.size());
+  result_.log_likelihood = log_likelihood;
+  result_.aic = 2 * k - 2 * log_likelihood;
+  result_.bic = k * std::log(total_weight) - 2 * log_likelihood;
 }
 
 void Fitter::add_standard_errors(const PointsRef& u, const ColumnRef& weights) {

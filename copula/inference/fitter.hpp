@@ -34,13 +34,16 @@ class Fitter {
   /// The best of ParameterScale::lattice(); for no parameters the empty z.
   [[nodiscard]] std::vector<double> best_of_lattice(const CopulaObjective& objective) const;
 
-  /// Minimises from start and records parameters, status, evaluations and message.
+  /// Minimises from start and records parameters, objective, status, evaluations and message.
   void search(const CopulaObjective& objective, const std::vector<double>& start, double step);
 
   void set_theta(Theta theta);
 
-  /// Records likelihood and criteria at the parameters found, and standard errors of a converged search.
+  /// Records the likelihood at the parameters found and the criteria that follow from it.
   void add_likelihood(const PointsRef& u, const ColumnRef& weights);
+  void set_likelihood(double log_likelihood, double total_weight);
+
+  /// Records the standard errors of a converged search for the maximum of the likelihood.
   void add_standard_errors(const PointsRef& u, const ColumnRef& weights);
 
  private:
