@@ -40,8 +40,7 @@ class Archimedean final : public ArchimedeanCopula {
   void log_cdf_into(const PointsRef& u, ColumnOut out) const override {
     for_each_row(u, out, [this](Row row) {
       if (std::ranges::find(row, 0.0) != row.end()) return -kInfinity;
-      return resolve([&]<class T>() { return generator_.log_psi(generic_sum<T>(generator_, row)); },
-                     [](const auto& x) { return accept_log(x); });
+      return resolve([&]<class T>() { return log_cdf<T>(row); }, [](const auto& x) { return accept_log(x); });
     });
   }
 
@@ -93,6 +92,7 @@ class Archimedean final : public ArchimedeanCopula {
   static double resolve(const Kernel& kernel, const Accept& accept) {
     if (const auto answer = accept(kernel.template operator()<Narrow>())) return *answer;
     if (const auto answer = accept(kernel.template operator()<Extended>())) return *answer;
+    const WideExponents exponents;
     if (const auto answer = accept(kernel.template operator()<Widest>())) return *answer;
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -105,14 +105,19 @@ class Archimedean final : public ArchimedeanCopula {
     return static_cast<double>(x.value);
   }
 
+  static constexpr long double kResolution = 0x1p-1080L;  // far below the smallest double; 0 as a double
+
   // e^x or 1 - e^x from x = log of a probability. Results below the normal range are left to Wide.
   template <class Real>
   static std::optional<double> accept_probability(const Bounded<Real>& x, Tail tail, double tolerance) {
     using std::isfinite;
     const Bounded<Real> answer = tail == Tail::lower ? exp(x) : -expm1(x);
-    if (!isfinite(answer.error) || !(answer.error <= tolerance * answer.value)) return std::nullopt;
+    const auto resolution = static_cast<Real>(kResolution);
+    const Real allowed = tolerance * answer.value;
+    if (!isfinite(answer.error) || !(answer.error <= (allowed > resolution ? allowed : resolution)))
+      return std::nullopt;
     // A subnormal double is the rounded value of a wider type.
-    if (!std::is_same_v<Real, Wide> && answer.value < std::numeric_limits<double>::min()) return std::nullopt;
+    if (std::is_same_v<Real, double> && answer.value < std::numeric_limits<double>::min()) return std::nullopt;
     return static_cast<double>(answer.value);
   }
 
@@ -122,6 +127,15 @@ class Archimedean final : public ArchimedeanCopula {
       return generator_.template log_density<T>(u);
     } else {
       return generic_log_density<T>(generator_, u);
+    }
+  }
+
+  template <class T>
+  T log_cdf(Row u) const {
+    if constexpr (HasLogCdf<G>) {
+      return generator_.template log_cdf<T>(u);
+    } else {
+      return generator_.log_psi(generic_sum<T>(generator_, u));
     }
   }
 

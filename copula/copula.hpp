@@ -11,7 +11,10 @@
 namespace sklar {
 
 /// A copula C on [0,1]^d. Accuracy of every quantity: see Archimedean (relative error of log density <= 1e-13).
-/// Boundary points are valid input and give the limit; a row with NaN gives NaN; other rows are never affected.
+/// Points of the boundary are valid input. A coordinate 0 or 1 stands for the limit eps or 1 - eps, eps -> 0, the same
+/// eps in all coordinates: it matters in the corners, where densities and conditionals depend on the direction of
+/// approach (log_pdf may be -inf or inf there). A last coordinate or p of 0 or 1 gives 0 or 1 itself in h and h_inv.
+/// A row with NaN gives NaN; other rows are never affected.
 class Copula {
  public:
   virtual ~Copula() = default;

@@ -66,6 +66,18 @@ template <class T>
   return sum;
 }
 
+/// Whether x <= 0 for sure. In Widest a value within its own error bound counts as 0: built from doubles, it would be
+/// far larger if it were not.
+template <class T>
+[[nodiscard]] bool not_positive(const T& x) {
+  if constexpr (std::is_same_v<T, Widest>) {
+    using std::isfinite;
+    return isfinite(x.error) && x.value <= x.error;
+  } else {
+    return x.value + x.error <= 0;
+  }
+}
+
 /// Horner's rule: sum_k coefficients[k] x^k.
 template <class T>
 [[nodiscard]] T polynomial(std::span<const T> coefficients, const T& x) {
@@ -89,7 +101,9 @@ template <class T, class Rate>
     const T residual = level - target;
     const bool settled = isfinite(residual.error) && abs(residual.value) <= residual.error / 4;
     const bool done = settled || step == kMaxSteps || above - below <= resolution * y;
-    if (done) return {y, Real((abs(residual.value) + residual.error) / slope.value * Real(1.125) + resolution * y)};
+    if (done)
+      return {
+          y, Real((abs(residual.value) + residual.error) / (slope.value - slope.error) * Real(1.125) + resolution * y)};
     (residual.value < 0 ? below : above) = y;
     Real next = y * exp(Real(-log(Real(level.value / target.value)) * level.value / (y * slope.value)));
     if (!(next > below && next < above)) {
@@ -152,8 +166,7 @@ template <template <class> class Constants>
 class PerPrecision {
  public:
   template <class... Arguments>
-  explicit PerPrecision(const Arguments&... arguments)
-      : values_(Constants<Narrow>(arguments...), Constants<Extended>(arguments...), Constants<Widest>(arguments...)) {}
+  explicit PerPrecision(const Arguments&... arguments) : values_(build(arguments...)) {}
 
   template <class T>
   [[nodiscard]] const Constants<T>& get() const {
@@ -161,7 +174,15 @@ class PerPrecision {
   }
 
  private:
-  std::tuple<Constants<Narrow>, Constants<Extended>, Constants<Widest>> values_;
+  using Values = std::tuple<Constants<Narrow>, Constants<Extended>, Constants<Widest>>;
+
+  template <class... Arguments>
+  static Values build(const Arguments&... arguments) {
+    const WideExponents exponents;
+    return Values(Constants<Narrow>(arguments...), Constants<Extended>(arguments...), Constants<Widest>(arguments...));
+  }
+
+  Values values_;
 };
 
 /// Eulerian numbers A(n,k) / n!, the coefficients of A_n(x) / n! (DLMF 26.14.8): positive, sum 1.

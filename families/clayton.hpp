@@ -24,11 +24,14 @@ namespace sklar::families::clayton {
 template <class T>
 struct Constants {
   Constants(int dim, double parameter)
-      : theta(parameter),
-        inverse(T(1) / theta),
-        log_rising(cumulative<T>(dim + 2, [this](const T& k) { return log1p(k * theta); })) {}
+      : theta(parameter), log_rising(cumulative<T>(dim + 2, [&](const T& k) { return log1p(ratio(k, parameter)); })) {}
 
-  T theta, inverse;
+  // k theta, exactly -1 where it is.
+  static T ratio(const T& k, double parameter) {
+    return std::fma(static_cast<double>(k.value), parameter, 1.0) == 0 ? T(-1) : k * T(parameter);
+  }
+
+  T theta;
   std::vector<T> log_rising;  // entry k: sum_{i<k} log(1 + i theta)
 };
 
@@ -40,7 +43,7 @@ class Clayton {
   template <class T>
   T log_psi(const T& t) const {
     const T base = T(theta_) * t;
-    if (base.value <= -1) return T(-std::numeric_limits<double>::infinity());
+    if (not_positive(T(1) + base)) return T(-kInfinity);
     return -log1p(base) / T(theta_);
   }
 
@@ -52,7 +55,7 @@ class Clayton {
   template <class T>
   T log_abs_dpsi(int k, const T& t) const {
     const T base = T(theta_) * t;
-    if (base.value <= -1) return T(-std::numeric_limits<double>::infinity());
+    if (not_positive(T(1) + base)) return T(-kInfinity);
     return constants<T>().log_rising[static_cast<std::size_t>(k)] -
            exponent<T>(static_cast<std::size_t>(k)) * log1p(base);
   }
@@ -60,25 +63,59 @@ class Clayton {
   template <class T>
   T log_density(std::span<const double> u) const {
     const double smallest = *std::ranges::min_element(u);
+    if (smallest == 0) return log_density_at_zeros<T>(u);
     return -theta_ * std::log(smallest) < kSmall ? log_density_near_independence<T>(u)
                                                  : log_density_scaled<T>(u, smallest);
   }
 
+  // -log(S) / theta, for theta > 0 relative to the smallest u.
+  template <class T>
+  T log_cdf(std::span<const double> u) const {
+    if (theta_ < 0) {
+      T s(0);  // S - 1
+      for (const double value : u) s += expm1(scaled<T>(value));
+      if (s > T(-0.5)) return -log1p(s) / T(theta_);
+      const T total = sum<T>(u);
+      return not_positive(total) ? T(-kInfinity) : -log(total) / T(theta_);
+    }
+    const double smallest = *std::ranges::min_element(u);
+    const T log_smallest = log(T(smallest));
+    T unused(0);
+    return log_smallest - log1p(scaled_rest<T>(u, smallest, log_smallest, unused)) / T(theta_);
+  }
+
+  // For theta > 0, given a 0 the next coordinate is 0. For theta < 0, given values at the edge of the support or beyond
+  // it is 1.
   template <class T>
   T log_conditional(std::span<const double> u) const {
     const auto given = u.first(u.size() - 1);
-    return -exponent<T>(given.size()) * log1p_increment<T>(given, u.back());
+    if (theta_ > 0) {
+      return std::ranges::min(given) == 0 ? T(0) : -exponent<T>(given.size()) * log1p_increment<T>(given, u.back());
+    }
+    const T s = sum<T>(given);
+    if (not_positive(s)) return T(-kInfinity);
+    const T ratio = expm1(scaled<T>(u.back())) / s;
+    return not_positive(T(1) + ratio) ? T(-kInfinity) : -exponent<T>(given.size()) * log1p(ratio);
   }
 
   // h = (1 + D/S)^-(j + 1/theta) with D = expm1(x_k), so D = S expm1(-log p / (j + 1/theta)) and -log v =
   // log1p(D)/theta.
   template <class T>
   T conditional_inverse(std::span<const double> given, double p) const {
-    const T y = -log(T(p)) / exponent<T>(given.size());
-    return log1p(sum<T>(given) * expm1(y)) / T(theta_);
+    const T s = sum<T>(given);
+    if (not_positive(s)) return T(0);
+    const T power = exponent<T>(given.size());
+    const bool on_surface = power.value == 0 && power.error == 0;  // a single v, where D = -S
+    const T y = on_surface ? T(-kInfinity) : -log(T(p)) / power;
+    const T growth = s * expm1(y);
+    if (growth > T(-0.5)) return log1p(growth) / T(theta_);
+    T missing(0);  // 1 - S
+    for (const double value : given) missing -= expm1(scaled<T>(value));
+    return log(missing + s * exp(y)) / T(theta_);
   }
 
  private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kSmall = 1.0;  // largest x_i of the series form; both forms hold at least 14 digits here
 
   template <class T>
@@ -99,10 +136,10 @@ class Clayton {
     return constants_->template get<T>();
   }
 
-  // k + 1/theta
+  // k + 1/theta = (1 + k theta) / theta
   template <class T>
   T exponent(std::size_t k) const {
-    return T(static_cast<int>(k)) + constants<T>().inverse;
+    return (T(1) + Constants<T>::ratio(T(static_cast<int>(k)), theta_)) / constants<T>().theta;
   }
 
   // log c = sum_{k<d} log1p(k theta) + sum x_i - d log1p(s) - [ (log1p(s) - s) + sum (expm1(x_i) - x_i) ] / theta,
@@ -116,9 +153,29 @@ class Clayton {
       x_sum += x;
       excess += expm1_minus_x(x);
     }
-    if (s.value + s.error <= -1) return T(-std::numeric_limits<double>::infinity());
+    if (not_positive(T(1) + s)) return T(-kInfinity);
     const T d(static_cast<int>(u.size()));
     return constants<T>().log_rising[u.size()] + x_sum - d * log1p(s) - (log1p_minus_x(s) + excess) / T(theta_);
+  }
+
+  // n zeros replaced by eps: for theta > 0 the density behaves like eps^(theta (d - n) - (n - 1)); for theta < 0 only
+  // one zero among ones is at the edge of the support, and the density like eps^(theta (d - 1)).
+  template <class T>
+  T log_density_at_zeros(std::span<const double> u) const {
+    const auto zeros = static_cast<int>(std::ranges::count(u, 0.0));
+    const int d = static_cast<int>(u.size());
+    if (theta_ < 0) {
+      const bool at_edge = zeros == 1 && std::ranges::count(u, 1.0) == d - 1;
+      const bool has_density = constants<T>().log_rising[u.size()].value > -kInfinity;
+      return T(at_edge && has_density ? kInfinity : -kInfinity);
+    }
+    const double power = theta_ * (d - zeros) - (zeros - 1);
+    if (power != 0) return T(power > 0 ? -kInfinity : kInfinity);
+    T log_c = constants<T>().log_rising[u.size()] - exponent<T>(u.size()) * log(T(zeros));
+    for (const double value : u) {
+      if (value > 0) log_c -= (T(1) + constants<T>().theta) * log(T(value));
+    }
+    return log_c;
   }
 
   template <class T>
@@ -149,21 +206,14 @@ class Clayton {
     return rest;
   }
 
-  // log(1 + D/S), D = expm1(x_k) from the last value v: the growth of S by one more coordinate.
+  // log(1 + D/S), D = expm1(x_k) from the last value v: the growth of S by one more coordinate, theta > 0.
   template <class T>
   T log1p_increment(std::span<const double> given, double v) const {
-    const T x = scaled<T>(v);
-    if (theta_ < 0) {
-      const T s = sum<T>(given);
-      if (s.value + s.error <= 0) return T(0);
-      const T ratio = expm1(x) / s;
-      return ratio.value <= -1 ? T(-std::numeric_limits<double>::infinity()) : log1p(ratio);
-    }
     const double smallest = *std::ranges::min_element(given);
     const T log_smallest = log(T(smallest));
     T unused(0);
     const T shift = -T(theta_) * log_ratio<T>(v, smallest, log(T(v)), log_smallest);
-    const T weight = -expm1(-x) / (T(1) + scaled_rest<T>(given, smallest, log_smallest, unused));
+    const T weight = -expm1(-scaled<T>(v)) / (T(1) + scaled_rest<T>(given, smallest, log_smallest, unused));
     // D/S = weight e^shift; for shift > 1 weight is of order 1 and the exponential may be huge.
     return shift > T(1) ? shift + log(weight + exp(-shift)) : log1p(weight * exp(shift));
   }
@@ -171,6 +221,12 @@ class Clayton {
   double theta_;
   std::shared_ptr<const PerPrecision<Constants>> constants_;
 };
+
+/// -1/(d-1), rounded into the domain.
+inline double lowest_theta(int dim) {
+  const double lowest = -1.0 / (dim - 1);
+  return std::fma(lowest, dim - 1, 1.0) < 0 ? std::nextafter(lowest, 0.0) : lowest;
+}
 
 inline FamilyInfo info() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -181,7 +237,7 @@ inline FamilyInfo info() {
       .source = "Nelsen 2006, eq. 4.2.1",
       .parameters = {{"theta",
                       [](int dim) {
-                        return Interval{-1.0 / (dim - 1), kInfinity};
+                        return Interval{lowest_theta(dim), kInfinity};
                       }}},
       .examples = {{1e-3}, {0.5}, {2.0}, {20.0}, {200.0}, {-0.05}, {-0.3}, {-0.8}},
       .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {

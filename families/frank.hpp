@@ -30,12 +30,14 @@ struct Constants {
         q(-expm1(-theta)),
         tail(exp(-theta)),
         upper_scale(expm1(theta)),
+        growth(exp(theta)),
         log_theta_by_q(log(theta / q)),
         log_factorial(cumulative<T>(dim + 1, [](const T& k) { return log(k); })) {}
 
   T theta, q;
   T tail;         // e^-theta
   T upper_scale;  // e^theta - 1
+  T growth;       // e^theta
   T log_theta_by_q;
   std::vector<T> log_factorial;  // entry n: log (n-1)!
 };
@@ -49,6 +51,9 @@ class Frank {
 
   template <class T>
   T log_psi(const T& t) const {
+    const T x = constants<T>().q * exp(-t);
+    constexpr double kFirstOrder = 1e-40;  // x^2 is below the resolution of Wide
+    if (abs(x) < T(kFirstOrder)) return x / T(2) - t - constants<T>().log_theta_by_q;
     return -minus_log_value(exp(-t), -expm1(-t));
   }
 
@@ -62,8 +67,8 @@ class Frank {
     if (k == 0) return log_psi(t);
     const Constants<T>& c = constants<T>();
     const T x = c.q * exp(-t);
-    const T complement = -expm1(-t) + exp(-c.theta - t);  // 1 - x
-    return -t - c.log_theta_by_q + log_eulerian(k - 1, x) - T(k) * log(complement);
+    const T log_complement = log_add_exp(log(-expm1(-t)), -c.theta - t);  // log(1 - x)
+    return -t - c.log_theta_by_q + log_eulerian(k - 1, x) - T(k) * log_complement;
   }
 
   template <class T>
@@ -76,6 +81,17 @@ class Frank {
     for (const double value : u) distance += positive_ ? T(value) - T(smallest) : T(value);
     return T(d - 1) * c.log_theta_by_q + log_eulerian(d - 1, product.x) - T(d) * product.log_complement -
            c.theta * distance;
+  }
+
+  template <class T>
+  T log_cdf(std::span<const double> u) const {
+    T value(1), complement(0);  // of the product of all weights
+    for (const double factor : u) {
+      const Weight<T> a = weight<T>(factor);
+      complement += value * a.complement;
+      value *= a.value;
+    }
+    return -minus_log_value(value, complement);
   }
 
   // log h = log a_k + log(A_(j-1)(x a_k) / A_(j-1)(x)) - j log(1 + x delta_k / (1-x)), j values given, x of those; for
@@ -135,11 +151,12 @@ class Frank {
   }
 
   // -log u from a = a(u) and delta = 1 - a: u = -log(1 - q a)/theta with 1 - q a = e^-theta + q delta,
-  // 1 - u = log(1 + expm1(theta) delta)/theta.
+  // 1 - u = log(1 + expm1(theta) delta)/theta, the argument being a + e^theta delta.
   template <class T>
   T minus_log_value(const T& a, const T& delta) const {
     const Constants<T>& c = constants<T>();
-    const T upper = log1p(c.upper_scale * delta) / c.theta;
+    const T excess = c.upper_scale * delta;
+    const T upper = (excess > T(-0.5) ? log1p(excess) : log(a + c.growth * delta)) / c.theta;
     if (upper < T(0.5)) return -log1p(-upper);
     const T x = c.q * a;
     return -log(-(x < T(0.5) ? log1p(-x) : log(c.tail + c.q * delta)) / c.theta);
@@ -242,6 +259,13 @@ inline double theta_from_tau(double tau) {
   return std::copysign(theta, tau);
 }
 
+/// -log(1 - r), rounded into the domain: the root is known to a few units in the last place.
+inline double lowest_theta(int dim) {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  if (dim == 2) return -std::numeric_limits<double>::infinity();
+  return -std::log1p(-eulerian_root(dim - 1)) * (1 - kRounding);
+}
+
 inline FamilyInfo info() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {
@@ -251,7 +275,7 @@ inline FamilyInfo info() {
       .source = "Nelsen 2006, eq. 4.2.5",
       .parameters = {{"theta",
                       [](int dim) {
-                        return Interval{dim == 2 ? -kInfinity : -std::log1p(-eulerian_root(dim - 1)), kInfinity};
+                        return Interval{lowest_theta(dim), kInfinity};
                       }}},
       .examples = {{1e-3}, {1.0}, {5.0}, {30.0}, {300.0}, {-0.03}, {-0.6}, {-8.0}, {-100.0}},
       .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {

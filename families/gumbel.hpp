@@ -64,11 +64,14 @@ class Gumbel {
   T log_abs_dpsi(int k, const T& t) const {
     const T s = root(t);
     if (k == 0) return -s;
+    if (t.value == 0) return T(std::numeric_limits<double>::infinity());
+    if (std::isinf(static_cast<double>(t.value)) && t.error == 0) return -t;
     return -s + T(k) * (log(s) - log(t) - log(T(theta_))) + log_q(k, s);
   }
 
   template <class T>
   T log_density(std::span<const double> u) const {
+    if (on_boundary(u)) return T(log_density_on_boundary(u));
     const Accumulated<T> sums = accumulate<T>(u);
     const int d = static_cast<int>(u.size());
     const T log_ratios = sums.log_ratios - T(d) * sums.log_stretch;
@@ -77,13 +80,24 @@ class Gumbel {
   }
 
   template <class T>
+  T log_cdf(std::span<const double> u) const {
+    return std::ranges::min(u) == 1 ? T(0) : -accumulate<T>(u).s();
+  }
+
+  // Given a 0 the next coordinate is 0; given nothing but ones it is 1.
+  template <class T>
   T log_conditional(std::span<const double> u) const {
-    const Conditional<T> conditional(*this, u.first(u.size() - 1));
+    const auto given = u.first(u.size() - 1);
+    if (std::ranges::min(given) == 0) return T(0);
+    if (std::ranges::min(given) == 1) return T(-std::numeric_limits<double>::infinity());
+    const Conditional<T> conditional(*this, given);
     return -conditional.decrease(conditional.log_growth(u.back())).first;
   }
 
   template <class T>
   T conditional_inverse(std::span<const double> given, double p) const {
+    if (std::ranges::min(given) == 0) return T(std::numeric_limits<double>::infinity());
+    if (std::ranges::min(given) == 1) return T(0);
     const Conditional<T> conditional(*this, given);
     const auto rate = [&](const T& log_growth) { return conditional.decrease(log_growth); };
     const T target = -log(T(p));
@@ -96,10 +110,26 @@ class Gumbel {
     T largest;      // x_m = max x_i
     T others;       // sum of the other x_i
     T log_ratios;   // sum log(x_i / x_m)
+    T log_powers;   // log sum (x_i / x_m)^theta
     T log_stretch;  // log(s / x_m)
 
     [[nodiscard]] T s() const { return largest * exp(log_stretch); }
   };
+
+  static bool on_boundary(std::span<const double> u) {
+    const auto [smallest, largest] = std::ranges::minmax(u);
+    return smallest == 0 || largest == 1;
+  }
+
+  // n zeros replaced by eps, m ones by 1 - eps: the density behaves like eps^(m (theta-1) - n + n^(1/theta)), n >= 2;
+  // like 0 for n = 1 and for n = 0 unless all are ones.
+  double log_density_on_boundary(std::span<const double> u) const {
+    const auto zeros = static_cast<double>(std::ranges::count(u, 0.0));
+    const auto ones = static_cast<double>(std::ranges::count(u, 1.0));
+    const bool infinite = zeros == 0 ? ones == static_cast<double>(u.size())
+                                     : zeros > 1 && zeros - std::pow(zeros, 1 / theta_) > ones * (theta_ - 1);
+    return infinite ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+  }
 
   // t^(1/theta)
   template <class T>
@@ -120,14 +150,20 @@ class Gumbel {
         continue;
       }
       const T log_value = log(T(value));
-      // log(x_i / x_m) by the difference of the two where they are near each other.
-      const T difference = log_ratio<T>(value, smallest, log_value, log_smallest) / largest;
-      const T ratio = difference < T(0.5) ? log1p(-difference) : log(log_value / log_smallest);
+      const T ratio = log_of_ratio(value, smallest, log_value, log_smallest);
       others -= log_value;
       log_ratios += ratio;
       powers += exp(T(theta_) * ratio);
     }
-    return {largest, others, log_ratios, log1p(powers) / T(theta_)};
+    const T log_powers = log1p(powers);
+    return {largest, others, log_ratios, log_powers, log_powers / T(theta_)};
+  }
+
+  // log(x / x_m) from u and m, by the difference of the two where they are near each other.
+  template <class T>
+  static T log_of_ratio(double u, double m, const T& log_u, const T& log_m) {
+    const T difference = log_ratio<T>(u, m, log_u, log_m) / -log_m;
+    return difference < T(0.5) ? log1p(-difference) : log(log_u / log_m);
   }
 
   // log Q_n(s); terms are powers of s or of 1/s, whichever is below 1.
@@ -154,6 +190,9 @@ class Gumbel {
     Conditional(const Gumbel& gumbel, std::span<const double> given)
         : gumbel_(gumbel), order_(static_cast<int>(given.size())), row_(gumbel.coefficients_->template row<T>(order_)) {
       const Accumulated<T> sums = gumbel.accumulate<T>(given);
+      smallest_ = std::ranges::min(given);
+      log_smallest_ = -sums.largest;
+      log_powers_ = sums.log_powers;
       s_ = sums.s();
       log_s_ = log(sums.largest) + sums.log_stretch;
       for_each_term([&](const T& term, const T&) { sum_ += term; });
@@ -162,7 +201,7 @@ class Gumbel {
     /// log(s_k / s_j) = log(1 + (x_k/s_j)^theta) / theta for the next coordinate v.
     [[nodiscard]] T log_growth(double v) const {
       const T theta(gumbel_.theta_);
-      const T z = theta * (log(-log(T(v))) - log_s_);
+      const T z = theta * log_of_ratio(v, smallest_, log(T(v)), log_smallest_) - log_powers_;
       return (z > T(0) ? z + log1p(exp(-z)) : log1p(exp(z))) / theta;
     }
 
@@ -207,7 +246,8 @@ class Gumbel {
     const Gumbel& gumbel_;
     int order_;
     std::span<const T> row_;
-    T s_, log_s_, sum_;
+    double smallest_;
+    T log_smallest_, log_powers_, s_, log_s_, sum_;
   };
 
   double theta_;

@@ -6,7 +6,7 @@
 
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/objective.hpp"
-#include "tests/unit/inference/family_cases.hpp"
+#include "tests/support/family_cases.hpp"
 
 namespace sklar {
 namespace {

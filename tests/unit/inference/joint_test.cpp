@@ -7,7 +7,7 @@
 #include <concepts>
 #include <limits>
 
-#include "tests/unit/inference/family_cases.hpp"
+#include "tests/support/family_cases.hpp"
 
 namespace sklar {
 namespace {

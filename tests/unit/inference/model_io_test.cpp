@@ -7,7 +7,7 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/unit/inference/family_cases.hpp"
+#include "tests/support/family_cases.hpp"
 
 namespace sklar {
 namespace {
