@@ -1,0 +1,196 @@
+/// Every quantity against digits that come from elsewhere: the textbook psi of each family in multiprecision, and the
+/// reference tables in $SKLAR_TEST_DATA/conformance.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "copula/archimedean_copula.hpp"
+#include "tests/conformance/family_test.hpp"
+#include "tests/support/psi_reference.hpp"
+
+namespace sklar::test {
+namespace {
+
+constexpr double kTolerance = 1e-13;
+constexpr double kInverseTolerance = 1e-12;
+constexpr double kSmallestNormal = 2.2250738585072014e-308;
+constexpr double kSmallestDouble = 4.94e-324;
+
+Digits larger(const Digits& a, const Digits& b) {
+  return a > b ? a : b;
+}
+
+testing::AssertionResult verdict(bool passes, double value, const Digits& expected) {
+  if (passes) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "got " << to_text(value) << ", expected " << expected.str(20);
+}
+
+/// log densities and other logarithms.
+testing::AssertionResult logarithm_agrees(double value, const Digits& expected) {
+  const bool equal = Digits(value) == expected;  // both infinite
+  const Digits bound = kTolerance * larger(1, abs(expected));
+  return verdict(equal || abs(value - expected) <= bound, value, expected);
+}
+
+/// h and 1 - h: relative, weaker for tiny ones, and to the last place where a double is subnormal.
+testing::AssertionResult probability_agrees(double value, const Digits& expected) {
+  if (expected < kSmallestNormal) return verdict(abs(value - expected) <= kSmallestDouble, value, expected);
+  const Digits log_expected = log(expected);
+  const Digits bound = kTolerance * larger(1, abs(log_expected) / 20);
+  return verdict(abs(log(Digits(value)) - log_expected) <= bound, value, expected);
+}
+
+/// Whether `value` is v (or 1 - v for the upper one) with h(given.., v) = p: its relative error is small, seen by h a
+/// little to either side, or it is the best double there is.
+testing::AssertionResult is_inverse(const PsiReference& reference, std::span<const double> given, double p, bool upper,
+                                    double value) {
+  const Digits v = upper ? Digits(1 - Digits(value)) : Digits(value);
+  const Digits step = kInverseTolerance * Digits(value);
+  const bool below = v <= step || reference.conditional(given, v - step).value <= p;
+  const bool above = v + step >= 1 || reference.conditional(given, v + step).value >= p;
+  if (below && above) return testing::AssertionSuccess();
+  const auto h = reference.conditional(given, v);
+  const Digits eps = std::numeric_limits<double>::epsilon();
+  return verdict(abs(h.value - p) <= 1e-14 * p + 4 * eps * value * h.slope, value, Digits(p));
+}
+
+SKLAR_FAMILY_SUITE(TextbookPsi);
+
+/// visit(copula, reference, points) for each case.
+template <class Visit>
+void for_each_case(const std::vector<FamilyCase>& cases, Index points, const Visit& visit) {
+  Rng rng(seed_of_this_test());
+  for (const FamilyCase& next : cases) {
+    SCOPED_TRACE(next.name());
+    visit(*next.copula(), PsiReference(*next.family, next.theta), hard_points(points, next.dim, rng));
+  }
+}
+
+TEST_P(TextbookPsi, LogDensityAndLogCdf) {
+  for_each_case(cases({2, 3, 5, 10}), 3, [](const Copula& copula, const PsiReference& reference, const Points& u) {
+    const Column log_pdf = copula.log_pdf(u), log_cdf = copula.log_cdf(u);
+    for (Index i = 0; i < u.rows(); ++i) {
+      const std::vector<double> row = row_of(u, i);
+      EXPECT_TRUE(logarithm_agrees(log_pdf(i), reference.log_density(row))) << "log_pdf" << row_text(u, i);
+      EXPECT_TRUE(logarithm_agrees(log_cdf(i), reference.log_cdf(row))) << "log_cdf" << row_text(u, i);
+    }
+  });
+}
+
+TEST_P(TextbookPsi, HighDimension) {
+  for_each_case(cases_near(0.5, {50, 100}), 1,
+                [](const Copula& copula, const PsiReference& reference, const Points& u) {
+                  EXPECT_TRUE(logarithm_agrees(copula.log_pdf(u)(0), reference.log_density(row_of(u, 0))));
+                });
+}
+
+TEST_P(TextbookPsi, ConditionalAndItsInverse) {
+  const auto check = [](const Copula& copula, const PsiReference& reference, const Points& u) {
+    const Column h = copula.h(u), upper = copula.h_upper(u), v = copula.h_inv(u), w = copula.h_inv_upper(u);
+    for (Index i = 0; i < u.rows(); ++i) {
+      const std::vector<double> row = row_of(u, i);
+      const std::span<const double> given(row.data(), row.size() - 1);
+      if (given.size() > 1 && isinf(reference.log_density(given))) continue;  // outside the support
+      const auto expected = reference.conditional(given, Digits(row.back()));
+      EXPECT_TRUE(probability_agrees(h(i), expected.value)) << "h" << row_text(u, i);
+      EXPECT_TRUE(probability_agrees(upper(i), expected.complement)) << "h_upper" << row_text(u, i);
+      const double p = row.back();
+      if (v(i) > 0 && v(i) < 1) {
+        EXPECT_TRUE(is_inverse(reference, given, p, false, v(i))) << row_text(u, i);
+      }
+      if (w(i) > 0 && w(i) < 1) {
+        EXPECT_TRUE(is_inverse(reference, given, p, true, w(i))) << row_text(u, i);
+      }
+    }
+  };
+  for_each_case(cases({2, 3, 5}), 3, check);
+}
+
+TEST_P(TextbookPsi, Derivatives) {
+  for (const FamilyCase& next : cases({2, 5})) {
+    SCOPED_TRACE(next.name());
+    const CopulaPtr copula = next.copula();
+    const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(copula.get());
+    if (archimedean == nullptr) continue;
+    Column t(5);
+    t << 1e-12, 1e-3, 0.7, 3, 40;
+    const PsiReference reference(family(), next.theta);
+    for (int order = 0; order <= next.dim; ++order) {
+      const Column value = archimedean->log_abs_dpsi(order, t);
+      for (Index i = 0; i < t.size(); ++i) {
+        EXPECT_TRUE(logarithm_agrees(value(i), reference.log_abs_dpsi(order, t(i)))) << order << " at " << t(i);
+      }
+    }
+  }
+}
+
+/// One row of a table: family,theta,quantity,d,u (space-separated),expected.
+struct TableRow {
+  std::string text, family, quantity, expected;
+  double theta = 0;
+  Points u;
+};
+
+TableRow parse(const std::string& line) {
+  std::istringstream fields(line);
+  std::string theta, dim, values;
+  TableRow row;
+  row.text = line;
+  std::getline(fields, row.family, ',');
+  std::getline(fields, theta, ',');
+  std::getline(fields, row.quantity, ',');
+  std::getline(fields, dim, ',');
+  std::getline(fields, values, ',');
+  std::getline(fields, row.expected, ',');
+  row.theta = std::strtod(theta.c_str(), nullptr);
+  row.u.resize(1, std::atoi(dim.c_str()));
+  std::istringstream each(values);
+  std::string value;
+  for (Index k = 0; k < row.u.cols() && each >> value; ++k) row.u(0, k) = std::strtod(value.c_str(), nullptr);
+  return row;
+}
+
+testing::AssertionResult inverse_agrees(const FamilyInfo& family, const TableRow& row, bool upper, double value,
+                                        const Digits& expected) {
+  if (abs(value - expected) <= kInverseTolerance * abs(expected)) return testing::AssertionSuccess();
+  const std::vector<double> given = row_of(row.u.leftCols(row.u.cols() - 1), 0);
+  return is_inverse(PsiReference(family, {row.theta}), given, row.u(0, row.u.cols() - 1), upper, value);
+}
+
+testing::AssertionResult row_agrees(const FamilyInfo& family, const TableRow& row) {
+  const CopulaPtr copula = family.make(static_cast<int>(row.u.cols()), {row.theta});
+  const Digits expected(row.expected);
+  if (row.quantity == "log_pdf") return logarithm_agrees(copula->log_pdf(row.u)(0), expected);
+  if (row.quantity == "h") return probability_agrees(copula->h(row.u)(0), expected);
+  if (row.quantity == "h_upper") return probability_agrees(copula->h_upper(row.u)(0), expected);
+  if (row.quantity == "h_inv") return inverse_agrees(family, row, false, copula->h_inv(row.u)(0), expected);
+  if (row.quantity == "h_inv_upper") return inverse_agrees(family, row, true, copula->h_inv_upper(row.u)(0), expected);
+  return testing::AssertionFailure() << "unknown quantity";
+}
+
+TEST(ReferenceTables, EveryRowOfARegisteredFamilyPasses) {
+  const char* folder = std::getenv("SKLAR_TEST_DATA");
+  if (folder == nullptr) GTEST_SKIP() << "SKLAR_TEST_DATA names no folder with conformance/*.csv";
+  Digits::default_precision(60);
+  int rows = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(folder) / "conformance")) {
+    std::ifstream file(entry.path());
+    std::string line;
+    std::getline(file, line);
+    if (line != "family,theta,quantity,d,u,expected") continue;
+    while (std::getline(file, line)) {
+      const TableRow row = parse(line);
+      for (const FamilyInfo& family : families::all()) {
+        if (family.name != row.family) continue;
+        ++rows;
+        EXPECT_TRUE(row_agrees(family, row)) << entry.path().filename() << ": " << row.text;
+      }
+    }
+  }
+  EXPECT_GT(rows, 0) << folder;
+}
+
+}  // namespace
+}  // namespace sklar::test

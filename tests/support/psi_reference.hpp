@@ -1,0 +1,56 @@
+#pragma once
+/// The independent judge: every quantity of a copula from the textbook psi of FamilyInfo alone, by truncated Taylor
+/// series in two multiprecision widths that must agree. Slow and simple; shares no formula with families/.
+
+#include <span>
+#include <vector>
+
+#include "copula/family.hpp"
+#include "tests/support/digits.hpp"
+
+namespace sklar::test {
+
+class PsiReference {
+ public:
+  /// @param theta admissible in the dimension of the questions asked. @param digits decimal digits of the narrower
+  /// width; 400 cover u from 1e-100 to 1 - 1e-16 at theta of a few hundred.
+  /// Every call throws std::runtime_error where the two widths disagree.
+  explicit PsiReference(const FamilyInfo& family, Theta theta, unsigned digits = 400)
+      : family_(family), theta_(std::move(theta)), digits_(digits) {}
+
+  /// log |psi^(k)(t)|.
+  [[nodiscard]] Digits log_abs_dpsi(int k, double t) const;
+
+  /// log c(u), all u_i in (0,1); -inf where the density is 0.
+  [[nodiscard]] Digits log_density(std::span<const double> u) const;
+
+  /// log C(u).
+  [[nodiscard]] Digits log_cdf(std::span<const double> u) const;
+
+  /// Probability of the box between two corners in (0,1)^d.
+  [[nodiscard]] Digits volume(std::span<const double> lower, std::span<const double> upper) const;
+
+  struct Conditional {
+    Digits value;       ///< h = C(v | given)
+    Digits complement;  ///< 1 - h
+    Digits slope;       ///< dh/dv
+  };
+  /// Precondition: the density of the given values is not 0.
+  [[nodiscard]] Conditional conditional(std::span<const double> given, const Digits& v) const;
+
+  /// psi^-1(v) psi'(psi^-1(v)); Kendall's tau is 1 + 4 times its integral over (0,1).
+  [[nodiscard]] Digits tau_integrand(double v) const;
+
+ private:
+  template <class Compute>
+  auto in_two_widths(const Compute& compute) const;
+  std::vector<Digits> derivatives(std::size_t order, const Digits& t) const;
+  Digits inverse(const Digits& u) const;
+  Digits sum_of_inverses(std::span<const double> u) const;
+
+  const FamilyInfo& family_;
+  Theta theta_;
+  unsigned digits_;
+};
+
+}  // namespace sklar::test
