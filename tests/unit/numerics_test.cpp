@@ -1,0 +1,177 @@
+#include "copula/numerics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <vector>
+
+#include "families/registry.hpp"
+#include "tests/support/digits.hpp"
+
+namespace sklar {
+namespace {
+
+using test::Digits;
+
+constexpr double kRelative = 4e-15;  // a handful of roundings, none amplified
+constexpr unsigned kDigits = 700;    // 1 - e^-x for x = 1e-300, and room
+
+/// Agreement in Narrow relative to `scale`, and that the bound it carries is small and true.
+void expect_within(const Digits& scale, const Narrow& value, const Digits& expected, const char* what, double x) {
+  const Digits error = abs(value.value - expected);
+  EXPECT_LE(error, kRelative * scale) << what << "(" << x << ") = " << value.value;
+  EXPECT_LE(error, value.error) << what << "(" << x << ")";
+  EXPECT_LE(value.error, 4 * kRelative * scale) << what << "(" << x << ")";
+}
+
+void expect_accurate(const Narrow& value, const Digits& expected, const char* what, double x) {
+  expect_within(abs(expected), value, expected, what, x);
+}
+
+/// For logarithms that pass through 0: absolute below 1.
+void expect_accurate_log(const Narrow& value, const Digits& expected, const char* what, double x) {
+  const Digits size = abs(expected);
+  expect_within(size > 1 ? size : Digits(1), value, expected, what, x);
+}
+
+TEST(Numerics, LogarithmsOfDifferences) {
+  Digits::default_precision(kDigits);
+  for (const double x : {1e-300, 1e-20, 1e-5, 0.1, 0.6931, 0.6932, 1.0, 5.0, 29.9, 30.1, 200.0, 700.0}) {
+    expect_accurate(log1mexp(Narrow(x)), log(1 - exp(-Digits(x))), "log1mexp", x);
+    expect_accurate_log(log_expm1(Narrow(x)), log(exp(Digits(x)) - 1), "log_expm1", x);
+  }
+  expect_accurate_log(log_expm1(Narrow(1e5)), Digits(1e5), "log_expm1", 1e5);
+  for (const double b : {-1e5, -40.0, 0.0, 3.0, 700.0}) {
+    expect_accurate_log(log_add_exp(Narrow(2.0), Narrow(b)), log(exp(Digits(2)) + exp(Digits(b))), "log_add_exp", b);
+  }
+}
+
+TEST(Numerics, LogRatioKeepsItsDigitsWhereTheTwoAreNear) {
+  Digits::default_precision(kDigits);
+  const double v = 0.3;
+  for (const double u : {5e-324, 1e-100, 0.1, 0.2, 0.29, std::nextafter(v, 0), std::nextafter(v, 1), 0.5, 0.7, 1.0}) {
+    const Narrow value = log_ratio<Narrow>(u, v, log(Narrow(u)), log(Narrow(v)));
+    expect_accurate(value, log(Digits(u) / Digits(v)), "log_ratio", u);
+  }
+  EXPECT_EQ(log_ratio<Narrow>(v, v, log(Narrow(v)), log(Narrow(v))).value, 0);
+}
+
+TEST(Numerics, RemaindersOfTheirSeries) {
+  Digits::default_precision(kDigits);
+  for (const double size : {1e-140, 1e-20, 1e-8, 1e-3, 0.1, 0.2499, 0.2501, 0.4999, 0.5001, 0.9}) {
+    for (const double x : {size, -size}) {
+      expect_accurate(log1p_minus_x(Narrow(x)), log1p(Digits(x)) - Digits(x), "log1p_minus_x", x);
+      expect_accurate(expm1_minus_x(Narrow(x)), expm1(Digits(x)) - Digits(x), "expm1_minus_x", x);
+    }
+  }
+}
+
+TEST(Numerics, NotPositiveIsSure) {
+  const Narrow doubtful(0.0, 1e-20);
+  EXPECT_FALSE(not_positive(doubtful));
+  EXPECT_TRUE(not_positive(Narrow(0)));
+  EXPECT_FALSE(not_positive(Narrow(5e-324)));
+  EXPECT_TRUE(not_positive(Widest(Wide(0), Wide(1e-60))));
+  EXPECT_FALSE(not_positive(Widest(Wide(1e-50), Wide(1e-60))));
+  EXPECT_FALSE(not_positive(Widest(Wide(-1), Widest::unknown())));
+}
+
+TEST(Numerics, SolvesIncreasingFunctions) {
+  // y e^y = target from starts on either side, and a root of order 2 at 0.
+  const auto product = [](const Narrow& y) { return std::pair(y * exp(y), (Narrow(1) + y) * exp(y)); };
+  const auto square = [](const Narrow& y) { return std::pair(y * y, Narrow(2) * y); };
+  for (const double root : {1e-200, 1e-8, 0.5, 3.0, 300.0}) {
+    for (const double start : {root / 1e6, root, root * 50}) {
+      const Narrow y = solve_increasing(product, Narrow(root) * exp(Narrow(root)), Narrow(start));
+      EXPECT_LE(std::abs(y.value - root), y.error) << root << " from " << start;
+      EXPECT_LE(y.error, 1e-13 * root) << root << " from " << start;
+    }
+    if (root < 1e-100) continue;
+    const Narrow y = solve_increasing(square, Narrow(root) * Narrow(root), Narrow(1));
+    EXPECT_LE(std::abs(y.value - root), y.error) << root;
+    EXPECT_LE(y.error, 1e-14 * root) << root;
+  }
+}
+
+TEST(Numerics, TriangleGivesEulerianNumbers) {
+  // DLMF 26.14, table 26.14.1.
+  const std::array<std::vector<double>, 4> known = {{{1, 1}, {1, 4, 1}, {1, 11, 11, 1}, {1, 26, 66, 26, 1}}};
+  const Triangle<EulerianRule> table(171, {});
+  double factorial = 1;
+  for (int n = 2; n <= 5; ++n) {
+    factorial *= n;
+    const auto narrow = table.row<Narrow>(n);
+    const auto wide = table.row<Widest>(n);
+    ASSERT_EQ(narrow.size(), static_cast<std::size_t>(n));
+    for (std::size_t k = 0; k < narrow.size(); ++k) {
+      const double expected = known[static_cast<std::size_t>(n) - 2][k];
+      EXPECT_NEAR(narrow[k].value * factorial, expected, kRelative * expected);
+      EXPECT_LE(abs(wide[k].value * factorial - expected), Wide(1e-65));
+    }
+  }
+  Narrow sum(0);
+  for (const Narrow& coefficient : table.row<Narrow>(170)) sum += coefficient;
+  EXPECT_LE(std::abs(sum.value - 1), sum.error);
+  EXPECT_LE(sum.error, 1e-12);
+}
+
+TEST(Numerics, CumulativeSums) {
+  const auto logs = cumulative<Narrow>(6, [](const Narrow& k) { return log(k); });
+  EXPECT_NEAR(logs[5].value, std::log(24.0), kRelative);  // log 4!
+  EXPECT_EQ(logs[0].value, 0);
+}
+
+TEST(Numerics, DebyeDefectAgainstQuadrature) {
+  boost::math::quadrature::tanh_sinh<double> quadrature;
+  const auto integrand = [](double t) { return t == 0 ? 1.0 : t / std::expm1(t); };
+  for (const double x : {0.3, 1.0, 1.999, 2.001, 5.0, 20.0, 49.0, 51.0, 300.0}) {
+    const double debye = quadrature.integrate(integrand, 0.0, x) / x;
+    const double expected = 0.25 - (1 - debye) / x;
+    EXPECT_NEAR(debye_1_defect(x), expected, 1e-14 / std::min(x, 1.0)) << x;  // the quadrature's own cancellation
+    EXPECT_EQ(debye_1_defect(-x), -debye_1_defect(x));
+  }
+  EXPECT_NEAR(debye_1_defect(1e-8), 1e-8 / 36, kRelative * 1e-8 / 36);  // A&S 27.1.1, first term
+  EXPECT_EQ(debye_1_defect(0), 0);
+  EXPECT_EQ(debye_1_defect(std::numeric_limits<double>::infinity()), 0.25);
+}
+
+TEST(Numerics, RootsOfEulerianPolynomialsNearestZero) {
+  EXPECT_DOUBLE_EQ(eulerian_root(2), -1);                             // 1 + x
+  EXPECT_DOUBLE_EQ(eulerian_root(3), -1 / (2 + std::sqrt(3.0)));      // 1 + 4x + x^2
+  EXPECT_DOUBLE_EQ(eulerian_root(4), -1 / (5 + 2 * std::sqrt(6.0)));  // (1 + x)(1 + 10x + x^2)
+  for (const int n : {5, 10, 30}) {
+    const double x = eulerian_root(n);
+    double value = 0, slope = 0;
+    const Triangle<EulerianRule> table(n + 1, {});
+    const auto row = table.row<Narrow>(n);
+    for (std::size_t k = row.size(); k-- > 0;) {
+      slope = slope * x + value;
+      value = value * x + row[k].value;
+    }
+    EXPECT_LE(std::abs(value / slope), 1e-14 * std::abs(x)) << n;
+    EXPECT_GT(x, eulerian_root(n - 1)) << n;
+  }
+}
+
+TEST(FamilyDomains, FrankByDimension) {
+  // log(1 - r), r the root of A_(d-1) nearest 0, from 50-digit arithmetic.
+  const auto lowest = [](int dim) { return families::find("frank").parameters[0].domain(dim).lowest; };
+  EXPECT_EQ(lowest(2), -std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(lowest(3), -0.6931471806, 5e-11);
+  EXPECT_NEAR(lowest(4), -0.2374007862, 5e-11);
+  EXPECT_NEAR(lowest(5), -0.09623749011, 5e-12);
+  EXPECT_NEAR(lowest(6), -0.04219349026, 5e-12);
+  EXPECT_NEAR(lowest(10), -0.002119060109, 5e-13);
+}
+
+TEST(FamilyDomains, ClaytonByDimension) {
+  for (const int dim : {2, 3, 4, 11, 50}) {
+    const double lowest = families::find("clayton").parameters[0].domain(dim).lowest;
+    EXPECT_NEAR(lowest, -1.0 / (dim - 1), 1e-15);
+    EXPECT_GE(std::fma(lowest, dim - 1, 1.0), 0) << "outside by rounding, dimension " << dim;
+  }
+}
+
+}  // namespace
+}  // namespace sklar
