@@ -8,16 +8,20 @@
 namespace sklar {
 namespace {
 
+std::string refusal(std::string_view function, std::string_view argument, std::string_view allowed,
+                    const std::string& entry) {
+  return std::string(function) + ": " + std::string(argument) + " must be " + std::string(allowed) + ", got " + entry;
+}
+
 template <class Admissible>
 void require_entries(std::string_view function, std::string_view argument, const PointsRef& x, std::string_view allowed,
                      Admissible admissible) {
   for (Index column = 0; column < x.cols(); ++column) {
     for (Index row = 0; row < x.rows(); ++row) {
       if (admissible(x(row, column))) continue;
-      const std::string name(argument);
-      throw std::domain_error(std::string(function) + ": " + name + " must be " + std::string(allowed) + ", got " +
-                              name + "(" + std::to_string(row) + "," + std::to_string(column) +
-                              ") = " + to_text(x(row, column)));
+      throw std::domain_error(refusal(function, argument, allowed,
+                                      std::string(argument) + "(" + std::to_string(row) + "," + std::to_string(column) +
+                                          ") = " + to_text(x(row, column))));
     }
   }
 }

@@ -86,7 +86,7 @@ std::vector<double> likelihood_start(const Fitter& fitter, const Points& u, cons
   };
   const double tau = fitter.scale().by_tau() && u.rows() > 1 ? neighbour_tau(u, weights) : FitResult::kNone;
   if (std::isfinite(tau)) {
-    const std::vector<double> z = fitter.scale().at_tau(tau);
+    std::vector<double> z = fitter.scale().at_tau(tau);
     if (objective(*fitter.copula(fitter.scale().theta(z))).nonfinite == 0) return z;
   }
   return fitter.best_of_lattice(objective);

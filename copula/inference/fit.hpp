@@ -76,6 +76,8 @@ struct FitResult {
                                           const FitOptions& options = {});
 
 /// Any method on points. Least squares counts them into cells (count_cells) and adds the likelihood of the points.
+/// Eq. 17 takes the density at a cell's centre for the mean over the cell: on points of a density with a peak in a
+/// corner least squares is biased (16 bins, lower tail dependence 0.7, d = 2: tau 0.43 for 0.5), likelihood is not.
 [[nodiscard]] FitResult fit(const FamilyInfo& family, FitMethod method, const PointsRef& u,
                             const ColumnRef& weights = Column(), const FitOptions& options = {});
 

@@ -40,7 +40,7 @@ double drop_at_good_step(const LogLikelihood& l, const Theta& theta, double at_m
 std::vector<double> standard_errors(const LogLikelihood& log_likelihood, const Theta& theta, double at_maximum,
                                     const std::vector<Interval>& domain, std::vector<double> step) {
   const std::size_t k = theta.size();
-  const std::vector<double> none(k, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> none(k, std::numeric_limits<double>::quiet_NaN());
   Eigen::MatrixXd information(static_cast<Index>(k), static_cast<Index>(k));
   for (std::size_t i = 0; i < k; ++i) {
     const double drop = drop_at_good_step(log_likelihood, theta, at_maximum, i, domain[i], step[i]);

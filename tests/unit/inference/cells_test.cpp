@@ -50,7 +50,8 @@ TEST(CellTable, SampleEstimatesSums) {
   const std::vector<Index> shape = {200, 200};
   Column masses(40000);
   for (Index cell = 0; cell < masses.size(); ++cell) {
-    const double x = static_cast<double>(cell / 200) / 200;
+    const Index row = cell / 200;
+    const double x = static_cast<double>(row) / 200;
     const double y = static_cast<double>(cell % 200) / 200;
     masses[cell] = 0.1 + 500 * std::exp(-2000 * (std::pow(x - 0.3, 2) + std::pow(y - 0.6, 2)));  // a peak of 100 cells
   }

@@ -25,6 +25,7 @@ std::shared_ptr<const HistogramMarginal> margin(int i) {
 
 JointDensity joint_of(const test::FamilyCase& test_case) {
   std::vector<std::shared_ptr<const DensityMarginal>> margins;
+  margins.reserve(static_cast<std::size_t>(test_case.dim));
   for (int i = 0; i < test_case.dim; ++i) margins.push_back(margin(i));
   return {std::move(margins), test_case.copula()};
 }
