@@ -23,13 +23,9 @@ struct Options {
 
 std::string json_text(const Options& options, const Theta& theta, std::uint64_t seed,
                       const std::vector<std::string>& columns, const Points& u) {
-  auto rows = nlohmann::ordered_json::array();
-  for (Index row = 0; row < u.rows(); ++row) {
-    rows.push_back(std::vector<double>(u.row(row).begin(), u.row(row).end()));
-  }
   const nlohmann::ordered_json document{{"family", options.family}, {"theta", theta},
                                         {"dim", options.dim},       {"seed", seed},
-                                        {"columns", columns},       {"rows", rows}};
+                                        {"columns", columns},       {"rows", json_rows(u)}};
   return document.dump() + '\n';
 }
 

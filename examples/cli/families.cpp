@@ -84,7 +84,7 @@ void run(int dim, bool json) {
   if (json) {
     nlohmann::ordered_json document{{"dim", dim}, {"families", nlohmann::ordered_json::array()}};
     for (const FamilyInfo& family : families::all()) document["families"].push_back(json_row(family, dim));
-    return write_output("", document.dump(2) + '\n');
+    return print_json(document);
   }
   std::vector<Cells> rows{{"family", "parameters, d = " + std::to_string(dim), "tau", "tails", "source"}};
   for (const FamilyInfo& family : families::all()) rows.push_back(table_row(family, dim));

@@ -32,6 +32,11 @@ void run(CLI::App& app, int argc, char** argv) {
   add_copula_table(*copula, common);
   add_copula_sample(*copula, common);
   add_copula_fit(*copula, common);
+  CLI::App* brdf = app.add_subcommand("brdf", "work on a material")->require_subcommand(1);
+  add_brdf_albedo(*brdf, common);
+  add_brdf_convert(*brdf, common);
+  add_brdf_eval(*brdf, common);
+  add_brdf_render(*brdf, common);
 
   app.parse(argc, argv);
   const auto threads = common.threads > 0 ? static_cast<unsigned>(common.threads) : std::thread::hardware_concurrency();

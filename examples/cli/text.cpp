@@ -8,6 +8,7 @@
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "copula/inference/csv.hpp"
 #include "families/registry.hpp"
 
 namespace sklar::cli {
@@ -100,6 +101,24 @@ void write_output(const std::string& path, std::string_view text) {
   if (!path.empty()) return write_file(path, text);
   std::cout << text << std::flush;
   if (!std::cout) throw FileError("standard output", "cannot be written");
+}
+
+void print_json(const nlohmann::ordered_json& document) {
+  write_output("", document.dump(2) + '\n');
+}
+
+nlohmann::ordered_json json_rows(const PointsRef& rows) {
+  auto array = nlohmann::ordered_json::array();
+  for (Index row = 0; row < rows.rows(); ++row) {
+    array.push_back(json_numbers(std::vector<double>(rows.row(row).begin(), rows.row(row).end())));
+  }
+  return array;
+}
+
+void write_table(const std::string& path, const std::vector<std::string>& columns, const PointsRef& rows, bool json) {
+  if (!json) return write_output(path, to_csv(columns, rows));
+  const nlohmann::ordered_json document{{"columns", columns}, {"rows", json_rows(rows)}};
+  write_output(path, document.dump() + '\n');
 }
 
 }  // namespace sklar::cli

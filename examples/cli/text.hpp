@@ -42,4 +42,11 @@ namespace sklar::cli {
 /// To standard output, or, where path is not empty, to a file, whole or not at all. @throws FileError
 void write_output(const std::string& path, std::string_view text);
 
+/// To standard output. @throws FileError
+void print_json(const nlohmann::ordered_json& document);
+
+/// Rows of an array. With write_output: as CSV, or as {"columns": [..], "rows": [[..], ..]}.
+[[nodiscard]] nlohmann::ordered_json json_rows(const PointsRef& rows);
+void write_table(const std::string& path, const std::vector<std::string>& columns, const PointsRef& rows, bool json);
+
 }  // namespace sklar::cli

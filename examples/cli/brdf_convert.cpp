@@ -1,0 +1,31 @@
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "brdf/data/merl.hpp"
+#include "copula/error.hpp"
+#include "examples/cli/command.hpp"
+#include "examples/cli/material.hpp"
+#include "examples/cli/text.hpp"
+
+namespace sklar::cli {
+namespace {
+
+void run(const std::string& in, const std::string& out, bool json) {
+  if (std::filesystem::path(out).extension() != ".binary") throw FileError(out, "a table is written as .binary");
+  brdf::write_merl(out, *load_table(in));
+  if (json) print_json({{"output", out}});
+}
+
+}  // namespace
+
+void add_brdf_convert(CLI::App& parent, Common& common) {
+  CLI::App* command = parent.add_subcommand("convert", "write a material in another format, by extension");
+  const auto in = std::make_shared<std::string>();
+  const auto out = std::make_shared<std::string>();
+  command->add_option("IN", *in, "MERL .binary or isotropic RGL .bsdf")->required();
+  command->add_option("OUT", *out, "MERL .binary")->required();
+  finish_command(*command, common, [=, &common] { run(*in, *out, common.json); });
+}
+
+}  // namespace sklar::cli

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "brdf/analytic/synthetic.hpp"
+#include "brdf/data/merl.hpp"
+#include "copula/inference/csv.hpp"
+#include "tests/cli/run_command.hpp"
+
+namespace sklar::cli {
+namespace {
+
+class BrdfCommand : public CommandTest {
+ protected:
+  /// The built-in material as a MERL file's bytes.
+  [[nodiscard]] std::string merl() const {
+    brdf::write_merl(folder_ / "builtin.binary", brdf::builtin_material());
+    return read("../builtin.binary");
+  }
+};
+
+constexpr std::size_t kMerlHeader = 3 * sizeof(std::int32_t);
+
+TEST_F(BrdfCommand, EverySubcommandHasHelpAndTheCommonOptions) {
+  for (const std::string command : {"albedo", "convert", "eval", "render"}) {
+    const Result result = run("brdf " + command + " --help");
+    EXPECT_EQ(result.status, 0) << command;
+    for (const std::string option : {"--help", "--json", "--seed", "--threads"}) {
+      EXPECT_NE(result.out.find(option), std::string::npos) << command << " " << option;
+    }
+  }
+  for (const std::string arguments :
+       {"brdf", "brdf eval", "brdf convert", "brdf render", "brdf render --scene x -o a.exr"}) {
+    expect_usage_error(arguments);
+  }
+}
+
+TEST_F(BrdfCommand, AlbedoAtEachDegree) {
+  const Result result = run("brdf albedo -o albedo.csv");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Table table = parse_csv(read("albedo.csv"), "albedo.csv");
+  EXPECT_EQ(table.names, (std::vector<std::string>{"theta_o", "r", "g", "b"}));
+  ASSERT_EQ(table.values.rows(), 90);
+  EXPECT_DOUBLE_EQ(table.values(89, 0), 89);
+  EXPECT_GT(table.values.rightCols<3>().minCoeff(), 0);
+  EXPECT_LT(table.values.rightCols<3>().maxCoeff(), 1);
+}
+
+TEST_F(BrdfCommand, EvalAnswersInOrder) {
+  write("in.csv", "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0,0,1,0.6,0,0.8\n0.6,0,0.8000001,0,0,1\n0.6,0,-0.8,0,0,1\n");
+  const Result result = run("brdf eval --directions in.csv");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Table table = parse_csv(result.out, "stdout");
+  EXPECT_EQ(table.names, (std::vector<std::string>{"r", "g", "b", "pdf"}));
+  ASSERT_EQ(table.values.rows(), 3);
+  EXPECT_NEAR(table.values(0, 1), table.values(1, 1), 1e-6 * table.values(1, 1)) << "reciprocal";
+  EXPECT_NEAR(table.values(1, 3), 0.8 / std::numbers::pi, 1e-6) << "cosine hemisphere";
+  EXPECT_TRUE((table.values.row(2) == 0).all()) << "below the horizon";
+  const auto document = nlohmann::json::parse(run("brdf eval --directions in.csv --json").out);
+  EXPECT_EQ(document["rows"][0][1].get<double>(), table.values(0, 1));
+}
+
+TEST_F(BrdfCommand, EvalRefusesBadDirections) {
+  write("in.csv", "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0,0,1,0,0,1\n0,0,1,0.6,0,0.81\n");
+  expect_refused("brdf eval --directions in.csv -o out.csv", "in.csv: line 3: wo must have length 1, got 1.00");
+  write("in.csv", "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\nnan,0,1,0,0,1\n");
+  expect_refused("brdf eval --directions in.csv -o out.csv", "line 2: wi must have length 1, got nan");
+  write("in.csv", "wi_x,wi_y,wi_z\n0,0,1\n");
+  expect_refused("brdf eval --directions in.csv -o out.csv",
+                 "line 1: the header must be wi_x,wi_y,wi_z,wo_x,wo_y,wo_z");
+  expect_refused("brdf eval --directions missing.csv", "missing.csv: no such file");
+}
+
+TEST_F(BrdfCommand, RenderIsTheSameWithSwappedDirections) {
+  ASSERT_EQ(run("brdf render --size 24 -o a.exr").status, 0);
+  ASSERT_EQ(run("brdf render --size 24 --swap --threads 1 -o b.exr").status, 0);
+  EXPECT_TRUE(read("a.exr") == read("b.exr"));
+  ASSERT_EQ(run("brdf render --size 24 -o a.png").status, 0);
+  EXPECT_TRUE(read("a.png").starts_with("\x89PNG"));
+}
+
+TEST_F(BrdfCommand, RenderRefusesWhatCannotBeWritten) {
+  expect_refused("brdf render --size 8 -o a.jpg", "a.jpg: a picture ends in .exr or .png");
+  expect_refused("brdf render --size 8 -o missing/a.exr", "missing/a.exr: cannot be written");
+  expect_refused("brdf render --size 0 -o a.exr", "size");
+}
+
+TEST_F(BrdfCommand, ConvertKeepsEveryBit) {
+  const std::string bytes = merl();
+  write("in.binary", bytes);
+  ASSERT_EQ(run("brdf convert in.binary out.binary").status, 0);
+  EXPECT_TRUE(read("out.binary") == bytes);
+  expect_refused("brdf convert in.binary out.xyz", "out.xyz: ");
+  expect_refused("brdf convert in.binary missing/out.binary", "missing/out.binary: cannot be written");
+}
+
+TEST_F(BrdfCommand, RefusesBadMaterials) {
+  const auto refused = [&](const std::string& name, std::string_view bytes, const std::string& text) {
+    write(name, bytes);
+    expect_refused("brdf convert " + name + " out.binary", name + ": ");
+    expect_refused("brdf albedo " + name + " -o out.csv", text);
+  };
+  std::string bytes = merl();
+  refused("empty.binary", "", "empty.binary: ");
+  refused("short.binary", std::string_view(bytes).substr(0, bytes.size() - 1), "34992012");
+  refused("long.binary", bytes + "x", "34992012");
+  std::string other = bytes;
+  other[0] = 91;
+  refused("shape.binary", other, "shape.binary: ");
+  other = bytes;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::memcpy(other.data() + kMerlHeader, &nan, sizeof nan);
+  refused("nan.binary", other, "nan");
+  other = bytes;
+  const double masked = -1;
+  for (std::size_t i = kMerlHeader; i < other.size(); i += sizeof masked)
+    std::memcpy(other.data() + i, &masked, sizeof masked);
+  refused("masked.binary", other, "mask");
+  refused("empty.bsdf", "", "empty.bsdf: ");
+  refused("short.bsdf", "tensor_file", "short.bsdf: ");
+  refused("material.xyz", "x", "material.xyz: ");
+  expect_refused("brdf albedo missing.binary", "missing.binary: no such file");
+  expect_refused("brdf albedo .", ".");
+}
+
+}  // namespace
+}  // namespace sklar::cli
