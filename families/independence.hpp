@@ -2,6 +2,8 @@
 /// Independence copula: C(u) = prod u_i, psi(t) = exp(-t), no parameter, any dimension, tau = 0, no tail dependence.
 /// Nelsen, An Introduction to Copulas (2006), eq. 2.2.7 and p. 116.
 
+#include <cmath>
+
 #include "copula/archimedean_copula.hpp"
 #include "copula/family.hpp"
 
@@ -13,7 +15,11 @@ class Independence final : public ArchimedeanCopula {
 
  private:
   void log_pdf_into(const PointsRef& u, ColumnOut out) const override { out = u.rowwise().sum() * 0.0; }
-  void log_cdf_into(const PointsRef& u, ColumnOut out) const override { out = u.log().rowwise().sum(); }
+  // Column by column with std::log: Eigen's own log depends on a row's place in the batch.
+  void log_cdf_into(const PointsRef& u, ColumnOut out) const override {
+    out.setZero();
+    for (const auto& column : u.colwise()) out += column.unaryExpr([](double value) { return std::log(value); });
+  }
   void conditional_into(const PointsRef& u, Tail tail, ColumnOut out) const override { last_column(u, tail, out); }
   void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
     last_column(u, tail, out);
