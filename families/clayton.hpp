@@ -123,11 +123,15 @@ class Clayton {
     return -T(theta_) * log(T(u));
   }
 
-  // S = 1 + sum expm1(x_i), as e^(x_1) + sum_{i>1} expm1(x_i): one value alone leaves nothing to cancel.
+  // S = 1 + sum expm1(x_i), as e^(x_m) + sum_{i != m} expm1(x_i), m the smallest value: e^(x_m) may be far below 1
+  // where all others are 1.
   template <class T>
   T sum(std::span<const double> u) const {
-    T s = exp(scaled<T>(u[0]));
-    for (const double value : u.subspan(1)) s += expm1(scaled<T>(value));
+    const auto smallest = std::ranges::min_element(u);
+    T s = exp(scaled<T>(*smallest));
+    for (auto value = u.begin(); value != u.end(); ++value) {
+      if (value != smallest) s += expm1(scaled<T>(*value));
+    }
     return s;
   }
 
