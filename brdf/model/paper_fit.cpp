@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <mutex>
 
 #include "copula/inference/cells.hpp"
 
@@ -45,29 +44,23 @@ struct SliceTask {
   [[nodiscard]] FitResult fit_theta(const CellTable& cells) const {
     // 1e-5 of tau is far below what the slice's parameter can tell of the material.
     const FitOptions inner = {.tolerance = 1e-5, .standard_errors = false};
-    switch (options.method) {
-      case FitMethod::least_squares:
-        return fit_least_squares(family, cells, inner);
-      case FitMethod::maximum_likelihood:
-      case FitMethod::tau_inversion: {
-        const auto [u, weights] = observations(cells);
-        return fit(family, options.method, u, weights, inner);
-      }
-    }
-    return {};
+    if (options.method == FitMethod::least_squares) return fit_least_squares(family, cells, inner);
+    const CellTable observed = select(cells, cells.mass > 0);
+    return fit(family, options.method, observed.u, observed.mass, inner);
   }
 
-  // The cells that hold mass, as weighted points. Where the mass beyond a centre is below rounding, its F would be 1.
-  static std::pair<Points, Column> observations(const CellTable& cells) {
-    const Index count = (cells.mass > 0).count();
-    std::pair<Points, Column> rows{Points(count, cells.u.cols()), Column(count)};
+  // The chosen cells. F is kept below 1: it rounds to 1 where the mass beyond a centre is below rounding.
+  static CellTable select(const CellTable& cells, const Eigen::Array<bool, Eigen::Dynamic, 1>& chosen) {
+    const Index count = chosen.count();
+    CellTable result{.u = Points(count, cells.u.cols()), .mass = Column(count), .margin = Column(count), .weight = {}};
     Index next = 0;
-    for (Index cell = 0; cell < cells.mass.size(); ++cell) {
-      if (cells.mass(cell) == 0) continue;
-      rows.first.row(next) = cells.u.row(cell).min(std::nextafter(1.0, 0.0));
-      rows.second(next++) = cells.mass(cell);
+    for (Index cell = 0; cell < chosen.size(); ++cell) {
+      if (!chosen(cell)) continue;
+      result.u.row(next) = cells.u.row(cell).min(std::nextafter(1.0, 0.0));
+      result.mass(next) = cells.mass(cell);
+      result.margin(next++) = cells.margin(cell);
     }
-    return rows;
+    return result;
   }
 
   void run(PaperSlice& result, FitResult& found) const {
@@ -78,10 +71,12 @@ struct SliceTask {
       return;
     }
     const std::array<Index, 3> shape = {Grid::theta_h, width(), Grid::phi_d};
-    const CellTable cells = cell_table(values, shape);
+    const CellTable all = cell_table(values, shape);
+    // Where a margin is 0, table and model are, whatever the copula.
+    const CellTable cells = select(all, all.margin > 0);
     found = fit_theta(cells);
     if (found.status == FitStatus::failed) throw std::runtime_error(where() + ": " + found.message);
-    for (std::size_t axis = 0; axis < 3; ++axis) result.masses[axis] = margin(cells.mass, shape, axis);
+    for (std::size_t axis = 0; axis < 3; ++axis) result.masses[axis] = margin(all.mass, shape, axis);
     result.theta = found.theta;
     const CopulaPtr copula = family.make(3, found.theta);
     result.scale = static_cast<float>(total / (copula->pdf(cells.u) * cells.margin).sum());
@@ -101,7 +96,7 @@ struct SliceTask {
 }  // namespace
 
 PaperFit fit_paper(const MeasuredTable& table, const FamilyInfo& family, const PaperFitOptions& options,
-                   const std::function<void(int, int)>& progress) {
+                   const Progress& progress) {
   require_table("fit_paper", table);
   if (options.slices < 1 || Grid::theta_d % options.slices != 0) {
     throw std::invalid_argument("the number of slices must divide " + std::to_string(Grid::theta_d) + ", got " +
@@ -112,14 +107,12 @@ PaperFit fit_paper(const MeasuredTable& table, const FamilyInfo& family, const P
   PaperFit result;
   for (auto& channel : channels) channel.resize(slices);
   for (auto& channel : result.fits) channel.resize(slices);
-  std::mutex mutex;
-  int done = 0;
+  ProgressCounter counter(progress, 3 * options.slices);
   tbb::parallel_for(std::size_t{0}, 3 * slices, [&](std::size_t task) {
     const std::size_t channel = task / slices, slice = task % slices;
     const SliceTask job{table, family, options, channel, static_cast<int>(slice)};
     job.run(channels[channel][slice], result.fits[channel][slice]);
-    const std::lock_guard lock(mutex);
-    if (progress) progress(++done, static_cast<int>(3 * slices));
+    counter.step();
   });
   result.brdf = std::make_shared<PaperBrdf>(family, options.measure, std::move(channels));
   return result;

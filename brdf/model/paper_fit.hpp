@@ -1,10 +1,9 @@
 #pragma once
 /// Fitting the paper's model to a measured table.
 
-#include <functional>
-
 #include "brdf/data/measured_table.hpp"
 #include "brdf/model/paper_brdf.hpp"
+#include "brdf/progress.hpp"
 #include "copula/inference/fit.hpp"
 
 namespace sklar::brdf {
@@ -22,11 +21,9 @@ struct PaperFit {
 
 /// Cells below the horizon count as mass 0, as in the paper. Each slice of each channel is normalised (Eqs. 9, 10),
 /// gives its margins (Eq. 11) and its copula parameter; K makes the summed mass of the slice equal the table's.
-/// @param progress called with (done, all) slices of channels, from any thread, one call at a time.
 /// @throws std::invalid_argument if slices does not divide 90 or the table fails require_table; std::runtime_error if a
 /// slice cannot be fitted, saying which and why.
 [[nodiscard]] PaperFit fit_paper(const MeasuredTable& table, const FamilyInfo& family,
-                                 const PaperFitOptions& options = {},
-                                 const std::function<void(int, int)>& progress = {});
+                                 const PaperFitOptions& options = {}, const Progress& progress = {});
 
 }  // namespace sklar::brdf

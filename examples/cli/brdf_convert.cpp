@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "brdf/data/merl.hpp"
+#include "brdf/data/tabulate.hpp"
+#include "brdf/model/model_io.hpp"
 #include "copula/error.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
@@ -11,9 +13,16 @@
 namespace sklar::cli {
 namespace {
 
+// A material, or a fitted model at the cell centres.
+std::shared_ptr<const brdf::MeasuredTable> table_of(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".json") return load_table(path);
+  const brdf::StoredBrdf model = brdf::read_brdf(path);
+  return std::make_shared<const brdf::MeasuredTable>(brdf::tabulate(*model.brdf, model.material, model.provenance));
+}
+
 void run(const std::string& in, const std::string& out, bool json) {
   if (std::filesystem::path(out).extension() != ".binary") throw FileError(out, "a table is written as .binary");
-  brdf::write_merl(out, *load_table(in));
+  brdf::write_merl(out, *table_of(in));
   if (json) print_json({{"output", out}});
 }
 
@@ -23,7 +32,7 @@ void add_brdf_convert(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("convert", "write a material in another format, by extension");
   const auto in = std::make_shared<std::string>();
   const auto out = std::make_shared<std::string>();
-  command->add_option("IN", *in, "MERL .binary or isotropic RGL .bsdf")->required();
+  command->add_option("IN", *in, "MERL .binary, isotropic RGL .bsdf or fitted model .json")->required();
   command->add_option("OUT", *out, "MERL .binary")->required();
   finish_command(*command, common, [=, &common] { run(*in, *out, common.json); });
 }

@@ -20,8 +20,10 @@ void finish_command(CLI::App& command, Common& common, std::function<void()> job
 
 void add_families(CLI::App& parent, Common& common);
 void add_brdf_albedo(CLI::App& parent, Common& common);
+void add_brdf_compare(CLI::App& parent, Common& common);
 void add_brdf_convert(CLI::App& parent, Common& common);
 void add_brdf_eval(CLI::App& parent, Common& common);
+void add_brdf_fit(CLI::App& parent, Common& common);
 void add_brdf_render(CLI::App& parent, Common& common);
 void add_copula_fit(CLI::App& parent, Common& common);
 void add_copula_sample(CLI::App& parent, Common& common);

@@ -34,8 +34,10 @@ void run(CLI::App& app, int argc, char** argv) {
   add_copula_fit(*copula, common);
   CLI::App* brdf = app.add_subcommand("brdf", "work on a material")->require_subcommand(1);
   add_brdf_albedo(*brdf, common);
+  add_brdf_compare(*brdf, common);
   add_brdf_convert(*brdf, common);
   add_brdf_eval(*brdf, common);
+  add_brdf_fit(*brdf, common);
   add_brdf_render(*brdf, common);
 
   app.parse(argc, argv);

@@ -6,6 +6,8 @@
 
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/data/material.hpp"
+#include "brdf/data/table_brdf.hpp"
+#include "brdf/model/model_io.hpp"
 
 namespace sklar::cli {
 
@@ -13,12 +15,13 @@ void add_material(CLI::App& command, std::string& path) {
   command.add_option("MATERIAL", path, "MERL .binary or isotropic RGL .bsdf; the built-in material by default");
 }
 
-std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path) {
+std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path, brdf::Provenance binary_provenance) {
   return std::make_shared<const brdf::MeasuredTable>(path.empty() ? brdf::builtin_material()
-                                                                  : brdf::load_material(path));
+                                                                  : brdf::load_material(path, binary_provenance));
 }
 
-std::shared_ptr<const brdf::TableBrdf> load_brdf(const std::string& path) {
+brdf::BrdfPtr load_brdf(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".json") return brdf::read_brdf(path).brdf;
   return std::make_shared<const brdf::TableBrdf>(load_table(path));
 }
 
@@ -30,6 +33,16 @@ brdf::Progress progress_bar(std::string label) {
     std::fprintf(stderr, "\r%s [%s%s] %3.0f %%%s", label.c_str(), std::string(done, '#').c_str(),
                  std::string(kWidth - done, ' ').c_str(), 100 * share, share < 1 ? "" : "\n");
   };
+}
+
+StepLine::StepLine() : visible_(::isatty(STDERR_FILENO) != 0) {}
+
+StepLine::~StepLine() {
+  show("");
+}
+
+void StepLine::show(const std::string& what) const {
+  if (visible_) std::fprintf(stderr, "\r\x1b[K%s", what.c_str());
 }
 
 }  // namespace sklar::cli

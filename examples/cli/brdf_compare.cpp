@@ -1,0 +1,81 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <system_error>
+
+#include "brdf/study/results.hpp"
+#include "copula/error.hpp"
+#include "copula/file.hpp"
+#include "examples/cli/command.hpp"
+#include "examples/cli/fit_options.hpp"
+#include "examples/cli/material.hpp"
+#include "examples/cli/text.hpp"
+
+namespace sklar::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> materials;
+  std::string families = "all";
+  brdf::PaperFitOptions fit;
+  brdf::Provenance provenance = brdf::Provenance::unknown;
+  std::string folder = "out";
+};
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), error.message());
+}
+
+// The results so far, so that an interrupted run keeps what is finished.
+void write_results(const std::filesystem::path& folder, const std::vector<brdf::CompareRow>& rows) {
+  write_file(folder / "results.json", to_json(rows));
+  write_file(folder / "results.csv", to_csv(rows));
+  write_file(folder / "results.md", to_markdown(rows));
+}
+
+void run(const Options& options, bool json) {
+  const auto families = parse_families(options.families);
+  std::vector<std::string> materials = options.materials;
+  if (materials.empty()) materials.emplace_back();
+  make_folder(options.folder);
+  std::vector<brdf::CompareRow> rows;
+  std::vector<std::filesystem::path> files;
+  const StepLine steps;
+  for (const std::string& material : materials) {
+    const auto table = load_table(material, options.provenance);
+    brdf::Comparison comparison = brdf::compare_families(table, families, options.fit, options.folder,
+                                                         [&](const auto& what) { steps.show(what); });
+    rows.insert(rows.end(), comparison.rows.begin(), comparison.rows.end());
+    files.insert(files.end(), comparison.figures.begin(), comparison.figures.end());
+    write_results(options.folder, rows);
+  }
+  if (json) {
+    std::cout << to_json(rows);
+    return;
+  }
+  std::cout << to_markdown(rows) << '\n';
+  for (const brdf::CompareRow& row : rows) {
+    if (!row.error.empty()) std::cout << row.material << ", " << row.family << ": " << row.error << '\n';
+  }
+  for (const char* name : {"results.json", "results.csv", "results.md"}) {
+    files.push_back(std::filesystem::path(options.folder) / name);
+  }
+  for (const auto& file : files) std::cout << file.string() << '\n';
+}
+
+}  // namespace
+
+void add_brdf_compare(CLI::App& parent, Common& common) {
+  CLI::App* command = parent.add_subcommand("compare", "fit, measure and draw families on materials");
+  const auto options = std::make_shared<Options>();
+  command->add_option("MATERIAL", options->materials,
+                      "material files (.binary, .bsdf); omitted: the built-in material");
+  command->add_option("--families", options->families, "names separated by commas, or all")->capture_default_str();
+  command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
+  add_fit_options(*command, options->fit, options->provenance);
+  finish_command(*command, common, [options, &common] { run(*options, common.json); });
+}
+
+}  // namespace sklar::cli
