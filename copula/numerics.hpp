@@ -37,35 +37,6 @@ template <class T>
   return u > 0.5 * v && u < 2 * v ? log1p((T(u) - T(v)) / T(v)) : log_u - log_v;
 }
 
-/// log(1 + x) - x, x > -1, by the series of 2 atanh(x / (2 + x)) near 0, where the two terms cancel.
-template <class T>
-[[nodiscard]] T log1p_minus_x(const T& x) {
-  if (abs(x) > T(0.25)) return log1p(x) - x;
-  const T r = x / (T(2) + x);
-  const T square = r * r;
-  T power = r * square;
-  T sum = -x * r;
-  for (double n = 3;; n += 2) {
-    const T term = T(2) * power / T(n);
-    sum += term;
-    if (!(abs(term).value > T::operation() * abs(sum).value)) return sum;
-    power *= square;
-  }
-}
-
-/// e^x - 1 - x, by its series near 0, where the terms cancel.
-template <class T>
-[[nodiscard]] T expm1_minus_x(const T& x) {
-  if (abs(x) > T(0.5)) return expm1(x) - x;
-  T term = x * x / T(2);
-  T sum = term;
-  for (double n = 3; abs(term).value > T::operation() * abs(sum).value; ++n) {
-    term *= x / T(n);
-    sum += term;
-  }
-  return sum;
-}
-
 /// Whether x <= 0 for sure. In Widest a value within its own error bound counts as 0: built from doubles, it would be
 /// far larger if it were not.
 template <class T>

@@ -8,8 +8,7 @@
 /// With x_i = -theta log u_i, S = 1 + sum expm1(x_i):
 ///   log c = sum_{k<d} log(1 + k theta) + (1 + theta)/theta sum x_i - (d + 1/theta) log S
 /// For large x_i everything is taken relative to the smallest u, m: S = e^(x_m) (1 + sum_{i != m} e^(x_i - x_m)(1 -
-/// e^-x_i)), all terms positive. For small x_i the terms of order 1 are removed by hand, leaving series for log1p(S)-S,
-/// expm1(x)-x.
+/// e^-x_i)), all terms positive. As theta -> 0 the terms of order 1 cancel, which costs eps sum |log u_i|, absolute.
 
 #include <algorithm>
 #include <limits>
@@ -64,8 +63,7 @@ class Clayton {
   T log_density(std::span<const double> u) const {
     const double smallest = *std::ranges::min_element(u);
     if (smallest == 0) return log_density_at_zeros<T>(u);
-    return -theta_ * std::log(smallest) < kSmall ? log_density_near_independence<T>(u)
-                                                 : log_density_scaled<T>(u, smallest);
+    return -theta_ * std::log(smallest) < kSmall ? log_density_direct<T>(u) : log_density_scaled<T>(u, smallest);
   }
 
   // -log(S) / theta, for theta > 0 relative to the smallest u.
@@ -116,7 +114,7 @@ class Clayton {
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static constexpr double kSmall = 1.0;  // largest x_i of the series form; both forms hold at least 14 digits here
+  static constexpr double kSmall = 1.0;  // largest x_i of the direct form; beyond it S may overflow
 
   template <class T>
   T scaled(double u) const {
@@ -146,20 +144,18 @@ class Clayton {
     return (T(1) + Constants<T>::ratio(T(static_cast<int>(k)), theta_)) / constants<T>().theta;
   }
 
-  // log c = sum_{k<d} log1p(k theta) + sum x_i - d log1p(s) - [ (log1p(s) - s) + sum (expm1(x_i) - x_i) ] / theta,
-  // s = S - 1; also the form for theta < 0, where the density is 0 once S <= 0.
+  // log c = sum_{k<d} log1p(k theta) - (1 + theta) sum log u_i - (d + 1/theta) log1p(s), s = S - 1; also the form for
+  // theta < 0, where the density is 0 once S <= 0.
   template <class T>
-  T log_density_near_independence(std::span<const double> u) const {
-    T s(0), x_sum(0), excess(0);
+  T log_density_direct(std::span<const double> u) const {
+    T s(0), logs(0);
     for (const double value : u) {
-      const T x = scaled<T>(value);
-      s += expm1(x);
-      x_sum += x;
-      excess += expm1_minus_x(x);
+      const T log_value = log(T(value));
+      s += expm1(-T(theta_) * log_value);
+      logs += log_value;
     }
     if (not_positive(T(1) + s)) return T(-kInfinity);
-    const T d(static_cast<int>(u.size()));
-    return constants<T>().log_rising[u.size()] + x_sum - d * log1p(s) - (log1p_minus_x(s) + excess) / T(theta_);
+    return constants<T>().log_rising[u.size()] - (T(1) + T(theta_)) * logs - exponent<T>(u.size()) * log1p(s);
   }
 
   // n zeros replaced by eps: for theta > 0 the density behaves like eps^(theta (d - n) - (n - 1)); for theta < 0 only

@@ -28,13 +28,14 @@ struct Constants {
   Constants(int dim, double parameter)
       : theta(parameter),
         q(-expm1(-theta)),
+        inverse_q(T(1) / q),
         tail(exp(-theta)),
         upper_scale(expm1(theta)),
         growth(exp(theta)),
         log_theta_by_q(log(theta / q)),
         log_factorial(cumulative<T>(dim + 1, [](const T& k) { return log(k); })) {}
 
-  T theta, q;
+  T theta, q, inverse_q;
   T tail;         // e^-theta
   T upper_scale;  // e^theta - 1
   T growth;       // e^theta
@@ -139,15 +140,18 @@ class Frank {
     return constants_->template get<T>();
   }
 
-  // Each of a and 1 - a as a difference of exponentials where the two are apart, by expm1 where they are near each
-  // other.
+  // The smaller of q a and q (1 - a) by expm1, the larger as what is left of q.
   template <class T>
   Weight<T> weight(double u) const {
     const Constants<T>& c = constants<T>();
-    const T e = exp(-c.theta * T(u));
-    const T lower = e < T(0.5) || e > T(2) ? T(1) - e : -expm1(-c.theta * T(u));
-    const T upper = e > c.tail + c.tail || e + e < c.tail ? e - c.tail : -e * expm1(-c.theta * (T(1) - T(u)));
-    return {lower / c.q, upper / c.q};
+    const auto small = [&](const T& part) { return abs(part) <= T(0.5) * abs(c.q); };
+    if (u < 0.5) {
+      const T lower = -expm1(-c.theta * T(u));
+      if (small(lower)) return {lower * c.inverse_q, (c.q - lower) * c.inverse_q};
+    }
+    const T upper = -exp(-c.theta * T(u)) * expm1(-c.theta * (T(1) - T(u)));
+    const T lower = small(upper) ? c.q - upper : -expm1(-c.theta * T(u));
+    return {lower * c.inverse_q, upper * c.inverse_q};
   }
 
   // -log u from a = a(u) and delta = 1 - a: u = -log(1 - q a)/theta with 1 - q a = e^-theta + q delta,

@@ -75,7 +75,7 @@ class Gumbel {
     const Accumulated<T> sums = accumulate<T>(u);
     const int d = static_cast<int>(u.size());
     const T log_ratios = sums.log_ratios - T(d) * sums.log_stretch;
-    const T gap = sums.others - sums.largest * expm1(sums.log_stretch);
+    const T gap = sums.others - sums.largest * sums.stretch;
     return (T(theta_) - T(1)) * log_ratios + gap + log_q(d, sums.s());
   }
 
@@ -112,8 +112,9 @@ class Gumbel {
     T log_ratios;   // sum log(x_i / x_m)
     T log_powers;   // log sum (x_i / x_m)^theta
     T log_stretch;  // log(s / x_m)
+    T stretch;      // s / x_m - 1
 
-    [[nodiscard]] T s() const { return largest * exp(log_stretch); }
+    [[nodiscard]] T s() const { return largest * (T(1) + stretch); }
   };
 
   static bool on_boundary(std::span<const double> u) {
@@ -156,7 +157,8 @@ class Gumbel {
       powers += exp(T(theta_) * ratio);
     }
     const T log_powers = log1p(powers);
-    return {largest, others, log_ratios, log_powers, log_powers / T(theta_)};
+    const T log_stretch = log_powers / T(theta_);
+    return {largest, others, log_ratios, log_powers, log_stretch, expm1(log_stretch)};
   }
 
   // log(x / x_m) from u and m, by the difference of the two where they are near each other.

@@ -57,16 +57,6 @@ TEST(Numerics, LogRatioKeepsItsDigitsWhereTheTwoAreNear) {
   EXPECT_EQ(log_ratio<Narrow>(v, v, log(Narrow(v)), log(Narrow(v))).value, 0);
 }
 
-TEST(Numerics, RemaindersOfTheirSeries) {
-  Digits::default_precision(kDigits);
-  for (const double size : {1e-140, 1e-20, 1e-8, 1e-3, 0.1, 0.2499, 0.2501, 0.4999, 0.5001, 0.9}) {
-    for (const double x : {size, -size}) {
-      expect_accurate(log1p_minus_x(Narrow(x)), log1p(Digits(x)) - Digits(x), "log1p_minus_x", x);
-      expect_accurate(expm1_minus_x(Narrow(x)), expm1(Digits(x)) - Digits(x), "expm1_minus_x", x);
-    }
-  }
-}
-
 TEST(Numerics, NotPositiveIsSure) {
   const Narrow doubtful(0.0, 1e-20);
   EXPECT_FALSE(not_positive(doubtful));
