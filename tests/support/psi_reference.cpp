@@ -1,5 +1,6 @@
 #include "tests/support/psi_reference.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <stdexcept>
 #include <string>
@@ -13,12 +14,9 @@ namespace {
 
 using DigitsJet = Jet<Digits>;
 
-constexpr double kAgreement = 1e-30;  // relative, or absolute below 1
-
-bool agree(const Digits& a, const Digits& b) {
-  const Digits size = abs(b);
-  return a == b || abs(a - b) <= kAgreement * (size > 1 ? size : Digits(1));
-}
+constexpr double kAgreement = 1e-30;  // relative
+constexpr double kLogarithm = 1;      // below this size absolute
+constexpr double kProbability = 1e-310;
 
 // A recursive-descent reader of psi: numbers, t, parameters, + - * / ^, exp, log, parentheses. x^a means (x)_+^a.
 class Expression {
@@ -113,20 +111,26 @@ class Expression {
   std::size_t at_ = 0;
 };
 
-}  // namespace
-
-// compute() in the width asked for and in one and a half times it.
+// compute() in ever wider numbers until two widths agree, relative to the result or to `floor` if that is larger.
 template <class Compute>
-auto PsiReference::in_two_widths(const Compute& compute) const {
-  Digits::default_precision(digits_);
-  const std::vector<Digits> narrow = compute();
-  Digits::default_precision(digits_ + digits_ / 2);
-  std::vector<Digits> wider = compute();
-  for (std::size_t i = 0; i < wider.size(); ++i) {
-    if (!agree(narrow[i], wider[i])) throw std::runtime_error("PsiReference: the two widths disagree");
+std::vector<Digits> in_two_widths(double floor, const Compute& compute) {
+  for (unsigned digits = 100; digits <= 1600; digits *= 2) {
+    Digits::default_precision(digits);
+    const std::vector<Digits> narrow = compute();
+    Digits::default_precision(digits + digits / 2);
+    std::vector<Digits> wider = compute();
+    const bool resolved = pow(Digits(10), -static_cast<int>(digits)) < floor;  // else a difference may vanish unseen
+    const auto agree = [&](const Digits& a, const Digits& b) {
+      const Digits size = abs(b);
+      if (b == 0 && !resolved) return false;
+      return a == b || abs(a - b) <= kAgreement * (size > floor ? size : Digits(floor));
+    };
+    if (std::equal(narrow.begin(), narrow.end(), wider.begin(), agree)) return wider;
   }
-  return wider;
+  throw std::runtime_error("PsiReference: no two widths agree");
 }
+
+}  // namespace
 
 std::vector<Digits> PsiReference::derivatives(std::size_t order, const Digits& t) const {
   const DigitsJet variable = DigitsJet::variable(order, t);
@@ -140,24 +144,27 @@ std::vector<Digits> PsiReference::derivatives(std::size_t order, const Digits& t
   return result;
 }
 
-// Newton for log(-log psi) as a function of log t, inside a bracket: nearly a straight line for every generator.
+// Newton for log(-log psi) as a function of log t, nearly a straight line for most generators, inside a bracket; by
+// bisection for a while where that does not settle.
 Digits PsiReference::inverse(const Digits& u) const {
+  constexpr int kPatience = 40, kBisections = 60, kMaxSteps = 200;
   const Digits target = log(-log(u));
-  // A Newton step this small leaves an error near its square: all the digits that cancellation in psi leaves.
+  // A step this small leaves an error near its square: all the digits that cancellation in psi leaves.
   const Digits resolution = pow(Digits(10), -static_cast<int>(Digits::default_precision()) / 2);
   Digits x = 0, below = -1e9, above = 1e9;
-  for (int step = 0; step < 5000; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Digits t = exp(x);
     const std::vector<Digits> psi = derivatives(1, t);
-    const bool outside = !(psi[0] > 0);
+    const bool outside = !(psi[0] > 0 && psi[0] < 1);  // beyond the support, or too near its ends for this width
     const Digits minus_log = outside ? Digits(0) : Digits(-log(psi[0]));
-    const Digits excess = outside ? Digits(1) : Digits(log(minus_log) - target);
+    const Digits excess = outside ? Digits(psi[0] < 1 ? 1 : -1) : Digits(log(minus_log) - target);
     (excess > 0 ? above : below) = x;
-    const Digits next = outside ? Digits((below + above) / 2) : Digits(x + excess * psi[0] * minus_log / (t * psi[1]));
+    const Digits next = outside ? x : Digits(x + excess * psi[0] * minus_log / (t * psi[1]));
     if (!outside && abs(next - x) <= resolution * (1 + abs(x))) return exp(next);
-    x = next > below && next < above ? next : Digits((below + above) / 2);
+    const bool newton = next > below && next < above && (step < kPatience || step >= kPatience + kBisections);
+    x = newton ? next : Digits((below + above) / 2);
   }
-  throw std::runtime_error("PsiReference: psi(t) = u was not solved");
+  return exp(x);  // the widths will not agree
 }
 
 Digits PsiReference::sum_of_inverses(std::span<const double> u) const {
@@ -168,11 +175,12 @@ Digits PsiReference::sum_of_inverses(std::span<const double> u) const {
 
 Digits PsiReference::log_abs_dpsi(int k, double t) const {
   const auto order = static_cast<std::size_t>(k);
-  return in_two_widths([&] { return std::vector<Digits>{log(abs(derivatives(order, Digits(t))[order]))}; })[0];
+  return in_two_widths(kLogarithm,
+                       [&] { return std::vector<Digits>{log(abs(derivatives(order, Digits(t))[order]))}; })[0];
 }
 
 Digits PsiReference::log_density(std::span<const double> u) const {
-  return in_two_widths([&] {
+  return in_two_widths(kLogarithm, [&] {
     Digits t = 0, weights = 0;
     for (const double value : u) {
       const Digits part = inverse(Digits(value));
@@ -184,11 +192,11 @@ Digits PsiReference::log_density(std::span<const double> u) const {
 }
 
 Digits PsiReference::log_cdf(std::span<const double> u) const {
-  return in_two_widths([&] { return std::vector<Digits>{log(derivatives(0, sum_of_inverses(u))[0])}; })[0];
+  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(derivatives(0, sum_of_inverses(u))[0])}; })[0];
 }
 
 Digits PsiReference::volume(std::span<const double> lower, std::span<const double> upper) const {
-  return in_two_widths([&] {
+  return in_two_widths(kProbability, [&] {
     std::vector<Digits> low, high;
     for (const double value : lower) low.push_back(inverse(Digits(value)));
     for (const double value : upper) high.push_back(inverse(Digits(value)));
@@ -209,14 +217,14 @@ Digits PsiReference::volume(std::span<const double> lower, std::span<const doubl
 }
 
 Digits PsiReference::tau_integrand(double v) const {
-  return in_two_widths([&] {
+  return in_two_widths(kProbability, [&] {
     const Digits t = inverse(Digits(v));
     return std::vector<Digits>{t * derivatives(1, t)[1]};
   })[0];
 }
 
 PsiReference::Conditional PsiReference::conditional(std::span<const double> given, const Digits& v) const {
-  const std::vector<Digits> result = in_two_widths([&] {
+  const std::vector<Digits> result = in_two_widths(kProbability, [&] {
     const std::size_t j = given.size();
     const Digits before = sum_of_inverses(given), step = inverse(v);
     const Digits scale = derivatives(j, before)[j];

@@ -1,6 +1,7 @@
 #pragma once
 /// The independent judge: every quantity of a copula from the textbook psi of FamilyInfo alone, by truncated Taylor
-/// series in two multiprecision widths that must agree. Slow and simple; shares no formula with families/.
+/// series in multiprecision, as wide as it takes for two widths to agree. Slow and simple; shares no formula with
+/// families/.
 
 #include <span>
 #include <vector>
@@ -12,11 +13,9 @@ namespace sklar::test {
 
 class PsiReference {
  public:
-  /// @param theta admissible in the dimension of the questions asked. @param digits decimal digits of the narrower
-  /// width; 400 cover u from 1e-100 to 1 - 1e-16 at theta of a few hundred.
-  /// Every call throws std::runtime_error where the two widths disagree.
-  explicit PsiReference(const FamilyInfo& family, Theta theta, unsigned digits = 400)
-      : family_(family), theta_(std::move(theta)), digits_(digits) {}
+  /// @param theta admissible in the dimension of the questions asked.
+  /// Every call throws std::runtime_error where no two widths agree.
+  PsiReference(const FamilyInfo& family, Theta theta) : family_(family), theta_(std::move(theta)) {}
 
   /// log |psi^(k)(t)|.
   [[nodiscard]] Digits log_abs_dpsi(int k, double t) const;
@@ -42,15 +41,12 @@ class PsiReference {
   [[nodiscard]] Digits tau_integrand(double v) const;
 
  private:
-  template <class Compute>
-  auto in_two_widths(const Compute& compute) const;
   std::vector<Digits> derivatives(std::size_t order, const Digits& t) const;
   Digits inverse(const Digits& u) const;
   Digits sum_of_inverses(std::span<const double> u) const;
 
   const FamilyInfo& family_;
   Theta theta_;
-  unsigned digits_;
 };
 
 }  // namespace sklar::test
