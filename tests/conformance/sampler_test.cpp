@@ -1,0 +1,152 @@
+/// Draws against exact cell probabilities, and conditional draws against h.
+
+#include <array>
+#include <numeric>
+
+#include "tests/conformance/family_test.hpp"
+
+namespace sklar::test {
+namespace {
+
+SKLAR_FAMILY_SUITE(Sampler);
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr Index kDraws = 50000;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr Index kDraws = 50000;
+#else
+constexpr Index kDraws = 1000000;
+#endif
+#else
+constexpr Index kDraws = 1000000;
+#endif
+
+/// Number of chi-square tests in this file, all families together, for the level of each.
+int test_count() {
+  return static_cast<int>(families::all().size()) * 25;
+}
+
+/// Weak, medium and strong dependence, of either sign where the family has it.
+std::vector<FamilyCase> weak_medium_strong(const FamilyInfo& family, int dim) {
+  std::vector<FamilyCase> chosen;
+  for (const double tau : {-0.9, -0.3, 0.03, 0.4, 0.95}) {
+    for (FamilyCase& next : family_cases_near(tau, {dim})) {
+      const bool known = std::ranges::any_of(chosen, [&](const FamilyCase& c) { return c.theta == next.theta; });
+      if (next.family == &family && !known && std::abs(next.tau() - tau) < 0.3) chosen.push_back(std::move(next));
+    }
+  }
+  return chosen;
+}
+
+/// Cells of [0,1]^d between the same edges in every coordinate, the first coordinate fastest.
+class Cells {
+ public:
+  Cells(std::vector<double> edges, int dim) : edges_(std::move(edges)), dim_(dim) {}
+
+  [[nodiscard]] std::size_t count() const {
+    return static_cast<std::size_t>(std::pow(static_cast<double>(edges_.size() - 1), dim_) + 0.5);
+  }
+
+  [[nodiscard]] std::size_t index(const Points& u, Index row) const {
+    std::size_t cell = 0;
+    for (int k = dim_; k-- > 0;) {
+      const auto above = std::upper_bound(edges_.begin() + 1, edges_.end() - 1, u(row, k));
+      cell = cell * (edges_.size() - 1) + static_cast<std::size_t>(above - edges_.begin() - 1);
+    }
+    return cell;
+  }
+
+  /// The C-volume of every cell: C at all corners, differenced along each coordinate in turn.
+  [[nodiscard]] std::vector<double> probabilities(const Copula& copula) const {
+    const std::size_t n = edges_.size();
+    Points corners(static_cast<Index>(std::pow(static_cast<double>(n), dim_) + 0.5), dim_);
+    for (Index i = 0; i < corners.rows(); ++i) {
+      auto rest = static_cast<std::size_t>(i);
+      for (int k = 0; k < dim_; ++k, rest /= n) corners(i, k) = edges_[rest % n];
+    }
+    const Column cdf = copula.cdf(corners);
+    std::vector<double> values(cdf.begin(), cdf.end());
+    for (int k = 0; k < dim_; ++k) values = differences(values, k);
+    return values;
+  }
+
+ private:
+  // Coordinates before k have one value a cell already, those after it one value a corner.
+  [[nodiscard]] std::vector<double> differences(const std::vector<double>& values, int k) const {
+    const std::size_t n = edges_.size();
+    const auto stride = static_cast<std::size_t>(std::pow(static_cast<double>(n - 1), k) + 0.5);
+    std::vector<double> result;
+    for (std::size_t block = 0; block < values.size(); block += stride * n) {
+      for (std::size_t i = 0; i < stride * (n - 1); ++i) {
+        result.push_back(values[block + i + stride] - values[block + i]);
+      }
+    }
+    return result;
+  }
+
+  std::vector<double> edges_;
+  int dim_;
+};
+
+TEST_P(Sampler, DrawsFollowTheCellProbabilities) {
+  Rng rng(seed_of_this_test());
+  for (const int dim : {2, 3}) {
+    const Cells cells(dim == 2 ? std::vector<double>{0, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8,
+                                                     0.9, 0.95, 0.99, 0.999, 1 - 1e-4, 1}
+                               : std::vector<double>{0, 1e-3, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 0.999, 1},
+                      dim);
+    for (const FamilyCase& next : weak_medium_strong(family(), dim)) {
+      SCOPED_TRACE(next.name());
+      const CopulaPtr copula = next.copula();
+      std::vector<double> expected = cells.probabilities(*copula);
+      EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0), 1, 1e-12);
+      for (double& mass : expected) mass = std::max(mass, 0.0) * static_cast<double>(kDraws);
+      std::vector<double> observed(cells.count());
+      const Points u = copula->sample(kDraws, rng);
+      for (Index i = 0; i < kDraws; ++i) ++observed[cells.index(u, i)];
+      expect_chi_square(observed, expected, test_count(), next.name());
+      // The support of an Archimedean copula is an upper set: a draw at its edge may be outside by rounding, no
+      // further.
+      const Points inside = (u.topRows(kDraws / 20) * (1 + 4e-16)).min(1 - 0x1p-53);
+      const Column log_pdf = copula->log_pdf(inside);
+      EXPECT_TRUE((log_pdf > -std::numeric_limits<double>::infinity()).all()) << "a draw where the density is 0";
+    }
+  }
+}
+
+TEST_P(Sampler, ConditionalDrawsFollowH) {
+  constexpr Index kConditionalDraws = kDraws / 20;
+  constexpr Index kCells = 40;
+  Rng rng(seed_of_this_test());
+  for (const FamilyCase& next : weak_medium_strong(family(), 3)) {
+    const CopulaPtr copula = next.copula();
+    for (const double first : {1e-6, 0.3, 1 - 1e-6}) {
+      SCOPED_TRACE(next.name() + " given " + to_text(first));
+      // Two coordinates given, one perhaps extreme; edges equally spaced between the outer quantiles.
+      Points given(1, 2);
+      given << first, 0;
+      given(0, 1) = copula->h_inv((Points(1, 2) << first, 0.4).finished())(0);
+      const Points u = copula->sample(kConditionalDraws, rng, given);
+      EXPECT_TRUE((u.col(0) == given(0, 0)).all() && (u.col(1) == given(0, 1)).all());
+      const double low = copula->h_inv((Points(1, 3) << given, 1e-3).finished())(0);
+      const double high = copula->h_inv((Points(1, 3) << given, 1 - 1e-3).finished())(0);
+      Points edges = given.replicate(kCells + 1, 1);
+      edges.conservativeResize(kCells + 1, 3);
+      for (Index i = 0; i <= kCells; ++i) edges(i, 2) = low + (high - low) * static_cast<double>(i) / kCells;
+      edges(0, 2) = 0;
+      edges(kCells, 2) = 1;
+      const Column h = copula->h(edges);
+      std::vector<double> expected, observed(kCells);
+      for (Index i = 0; i < kCells; ++i) expected.push_back((h(i + 1) - h(i)) * static_cast<double>(kConditionalDraws));
+      for (Index i = 0; i < kConditionalDraws; ++i) {
+        const auto edge = std::upper_bound(edges.col(2).begin() + 1, edges.col(2).end() - 1, u(i, 2));
+        ++observed[static_cast<std::size_t>(edge - edges.col(2).begin() - 1)];
+      }
+      expect_chi_square(observed, expected, test_count(), next.name());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sklar::test
