@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 grep -rhoE --include='*.cpp' '^(TYPED_)?TEST(_F|_P)?\([A-Za-z0-9_]+, *[A-Za-z0-9_]+\)' tests |
   sed -E 's/.*\((.*), *(.*)\)/\1 \2/' | sort -u |
   awk -v log_file="$log" '
-    # gtest names: Suite.Name, Prefix/Suite.Name/parameter, Suite/type.Name
+    # ctest names: Suite.Name, Prefix/Suite.Name/parameter, Suite.Name<type>, Suite/type.Name
     BEGIN {
       while ((getline line < log_file) > 0) {
         if (line !~ /Test +#[0-9]+: / || line ~ /Not Run/) continue
@@ -15,7 +15,7 @@ grep -rhoE --include='*.cpp' '^(TYPED_)?TEST(_F|_P)?\([A-Za-z0-9_]+, *[A-Za-z0-9
         sub(/ .*/, "", line)
         dot = index(line, ".")
         name = substr(line, dot + 1)
-        sub(/\/.*/, "", name)
+        sub(/[\/<].*/, "", name)
         parts = split(substr(line, 1, dot - 1), suite, "/")
         for (i = 1; i <= parts; ++i) ran[suite[i] "." name] = 1
       }
