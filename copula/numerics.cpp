@@ -31,20 +31,21 @@ double debye_1_defect(double x) {
 
 double eulerian_root(int n) {
   // Newton from 0, right of every root, rises monotonically to the largest one. The polynomial is divided by n!.
+  // In long double, so that the result is the root rounded to double.
   const Triangle<EulerianRule> table(n + 1, {});
-  const auto coefficients = table.row<Narrow>(n);
-  double x = 0;
+  const auto coefficients = table.row<Extended>(n);
+  long double x = 0;
   for (int step = 0; step < 200; ++step) {
-    double value = 0, slope = 0;
+    long double value = 0, slope = 0;
     for (std::size_t k = coefficients.size(); k-- > 0;) {
       slope = slope * x + value;
       value = value * x + coefficients[k].value;
     }
-    const double next = x - value / slope;
+    const long double next = x - value / slope;
     if (!(next < x)) break;
     x = next;
   }
-  return x;
+  return static_cast<double>(x);
 }
 
 }  // namespace sklar
