@@ -64,7 +64,7 @@ class Gumbel {
   T log_abs_dpsi(int k, const T& t) const {
     const T s = root(t);
     if (k == 0) return -s;
-    if (t.value == 0) return T(std::numeric_limits<double>::infinity());
+    if (t.value == 0 && t.error == 0) return T(std::numeric_limits<double>::infinity());
     if (std::isinf(static_cast<double>(t.value)) && t.error == 0) return -t;
     return -s + T(k) * (log(s) - log(t) - log(T(theta_))) + log_q(k, s);
   }
@@ -257,6 +257,10 @@ class Gumbel {
   std::shared_ptr<const Triangle<Rule>> coefficients_;
 };
 
+inline Gumbel generator(int dim, const Theta& theta) {
+  return {dim, theta[0]};
+}
+
 inline FamilyInfo info() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {
@@ -271,7 +275,7 @@ inline FamilyInfo info() {
       .examples = {{1.0}, {1.001}, {1.5}, {3.0}, {20.0}, {200.0}},
       .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
         if (theta[0] == 1) return std::make_shared<independence::Independence>(dim);
-        return std::make_shared<Archimedean<Gumbel>>(dim, Gumbel(dim, theta[0]));
+        return std::make_shared<Archimedean<Gumbel>>(dim, generator(dim, theta));
       },
       .tau = [](const Theta& theta) { return 1 - 1 / theta[0]; },
       .theta_from_tau = [](double tau) { return Theta{1 / (1 - tau)}; },
