@@ -228,6 +228,10 @@ inline double lowest_theta(int dim) {
   return std::fma(lowest, dim - 1, 1.0) < 0 ? std::nextafter(lowest, 0.0) : lowest;
 }
 
+inline Clayton generator(int dim, const Theta& theta) {
+  return {dim, theta[0]};
+}
+
 inline FamilyInfo info() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {
@@ -242,7 +246,7 @@ inline FamilyInfo info() {
       .examples = {{1e-3}, {0.5}, {2.0}, {20.0}, {200.0}, {-0.05}, {-0.3}, {-0.8}},
       .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
         if (theta[0] == 0) return std::make_shared<independence::Independence>(dim);
-        return std::make_shared<Archimedean<Clayton>>(dim, Clayton(dim, theta[0]));
+        return std::make_shared<Archimedean<Clayton>>(dim, generator(dim, theta));
       },
       .tau = [](const Theta& theta) { return 1 / (1 + 2 / theta[0]); },
       .theta_from_tau = [](double tau) { return Theta{2 * tau / (1 - tau)}; },

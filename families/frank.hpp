@@ -270,6 +270,10 @@ inline double lowest_theta(int dim) {
   return -std::log1p(-eulerian_root(dim - 1)) * (1 - kRounding);
 }
 
+inline Frank generator(int dim, const Theta& theta) {
+  return {dim, theta[0]};
+}
+
 inline FamilyInfo info() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return {
@@ -284,7 +288,7 @@ inline FamilyInfo info() {
       .examples = {{1e-3}, {1.0}, {5.0}, {30.0}, {300.0}, {-0.03}, {-0.6}, {-8.0}, {-100.0}},
       .make_unchecked = [](int dim, const Theta& theta) -> CopulaPtr {
         if (theta[0] == 0) return std::make_shared<independence::Independence>(dim);
-        return std::make_shared<Archimedean<Frank>>(dim, Frank(dim, theta[0]));
+        return std::make_shared<Archimedean<Frank>>(dim, generator(dim, theta));
       },
       .tau = [](const Theta& theta) { return 4 * debye_1_defect(theta[0]); },
       .theta_from_tau = [](double tau) { return Theta{theta_from_tau(tau)}; },

@@ -6,6 +6,7 @@
 
 #include "copula/archimedean_copula.hpp"
 #include "copula/family.hpp"
+#include "copula/generator.hpp"
 
 namespace sklar::families::independence {
 
@@ -33,6 +34,29 @@ class Independence final : public ArchimedeanCopula {
     out = u.rowwise().sum() * 0.0 + (tail == Tail::lower ? Column(last) : Column(1.0 - last));
   }
 };
+
+/// psi(t) = exp(-t) for the generic routes; Independence itself needs none.
+class Exponential {
+ public:
+  template <class T>
+  T log_psi(const T& t) const {
+    return -t;
+  }
+
+  template <class T>
+  T psi_inv(double u) const {
+    return -log(T(u));
+  }
+
+  template <class T>
+  T log_abs_dpsi(int, const T& t) const {
+    return -t;
+  }
+};
+
+inline Exponential generator(int, const Theta&) {
+  return {};
+}
 
 inline FamilyInfo info() {
   return {
