@@ -6,8 +6,8 @@
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/family_cases.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace sklar {
 namespace {
