@@ -39,12 +39,12 @@ void run(const Options& options, bool json) {
   const auto families = parse_families(options.families);
   std::vector<std::string> materials = options.materials;
   if (materials.empty()) materials.emplace_back();
-  make_folder(options.folder);
   std::vector<brdf::CompareRow> rows;
   std::vector<std::filesystem::path> files;
   const StepLine steps;
   for (const std::string& material : materials) {
     const auto table = load_table(material, options.provenance);
+    make_folder(options.folder);  // a refused material leaves none
     brdf::Comparison comparison = brdf::compare_families(table, families, options.fit, options.folder,
                                                          [&](const auto& what) { steps.show(what); });
     rows.insert(rows.end(), comparison.rows.begin(), comparison.rows.end());

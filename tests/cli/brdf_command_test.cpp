@@ -27,7 +27,7 @@ class BrdfCommand : public CommandTest {
 constexpr std::size_t kMerlHeader = 3 * sizeof(std::int32_t);
 
 TEST_F(BrdfCommand, EverySubcommandHasHelpAndTheCommonOptions) {
-  for (const std::string command : {"albedo", "convert", "eval", "render"}) {
+  for (const std::string command : {"albedo", "compare", "convert", "eval", "fit", "render"}) {
     const Result result = run("brdf " + command + " --help");
     EXPECT_EQ(result.status, 0) << command;
     for (const std::string option : {"--help", "--json", "--seed", "--threads"}) {
@@ -97,6 +97,46 @@ TEST_F(BrdfCommand, ConvertKeepsEveryBit) {
   EXPECT_TRUE(read("out.binary") == bytes);
   expect_refused("brdf convert in.binary out.xyz", "out.xyz: ");
   expect_refused("brdf convert in.binary missing/out.binary", "missing/out.binary: cannot be written");
+}
+
+TEST_F(BrdfCommand, FitWritesAModelThatTheOthersRead) {
+  const Result fit = run("brdf fit --family independence -o model.json --json");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_LT(nlohmann::json::parse(fit.out)["log1p_mae"].get<double>(), 0.02);
+  write("in.csv", "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0.6,0,0.8,0,0,1\n");
+  const Table model = parse_csv(run("brdf eval model.json --directions in.csv").out, "model");
+  const Table material = parse_csv(run("brdf eval --directions in.csv").out, "material");
+  EXPECT_NEAR(model.values(0, 1) / material.values(0, 1), 1, 0.1);
+}
+
+TEST_F(BrdfCommand, FitRefusesWhatItCannotDo) {
+  expect_refused("brdf fit --family gaussian -o model.json", "unknown family 'gaussian'; known families: ");
+  expect_refused("brdf fit --family independence --slices 7 -o model.json", "slices");
+  expect_refused("brdf fit --family independence -o missing/model.json", "missing/model.json: cannot be written");
+  expect_refused("brdf fit missing.binary -o model.json", "missing.binary: no such file");
+  write("model.json", "{\"format\": ");
+  expect_refused("brdf albedo model.json", "model.json: ");
+}
+
+TEST_F(BrdfCommand, ComparePrintsTheTableAndThePaths) {
+  const Result result = run("brdf compare --families independence --out out");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("| material")) << result.out;
+  const auto document = nlohmann::json::parse(read("out/results.json"));
+  EXPECT_EQ(document["rows"][0]["family"], "independence");
+  for (const std::string name : {"synthetic_spheres.png", "synthetic_margins.png", "synthetic_joint.png",
+                                 "synthetic_albedo.png", "results.csv"}) {
+    EXPECT_NE(result.out.find("out/" + name + "\n"), std::string::npos) << result.out;
+    EXPECT_NE(read("out/" + name), "") << name;
+  }
+}
+
+TEST_F(BrdfCommand, CompareRefusesWhatItCannotDo) {
+  write("file", "");
+  write("bad.binary", "");
+  expect_refused("brdf compare --out file", "file: ");
+  expect_refused("brdf compare bad.binary --out out", "bad.binary: ");
+  expect_refused("brdf compare --families frank,gaussian --out out", "unknown family 'gaussian'");
 }
 
 TEST_F(BrdfCommand, RefusesBadMaterials) {
