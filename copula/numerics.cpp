@@ -29,9 +29,8 @@ double debye_1_defect(double x) {
   return sum;
 }
 
-double eulerian_root(int n) {
+long double eulerian_root(int n) {
   // Newton from 0, right of every root, rises monotonically to the largest one. The polynomial is divided by n!.
-  // In long double, so that the result is the root rounded to double.
   const Triangle<EulerianRule> table(n + 1, {});
   const auto coefficients = table.row<Extended>(n);
   long double x = 0;
@@ -45,7 +44,7 @@ double eulerian_root(int n) {
     if (!(next < x)) break;
     x = next;
   }
-  return static_cast<double>(x);
+  return x;
 }
 
 }  // namespace sklar

@@ -177,6 +177,6 @@ template <class T, class Term>
 [[nodiscard]] double debye_1_defect(double x);
 
 /// The root nearest 0 of the Eulerian polynomial A_n, n >= 2; all its roots are real and negative.
-[[nodiscard]] double eulerian_root(int n);
+[[nodiscard]] long double eulerian_root(int n);
 
 }  // namespace sklar

@@ -263,11 +263,12 @@ inline double theta_from_tau(double tau) {
   return std::copysign(theta, tau);
 }
 
-/// -log(1 - r), rounded into the domain: the root is known to a few units in the last place.
+/// -log(1 - r), the first double that is not below it.
 inline double lowest_theta(int dim) {
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
   if (dim == 2) return -std::numeric_limits<double>::infinity();
-  return -std::log1p(-eulerian_root(dim - 1)) * (1 - kRounding);
+  const long double bound = -std::log1p(-eulerian_root(dim - 1));
+  const auto nearest = static_cast<double>(bound);
+  return nearest < bound ? std::nextafter(nearest, 0.0) : nearest;
 }
 
 inline Frank generator(int dim, const Theta& theta) {

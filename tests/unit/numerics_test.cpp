@@ -127,11 +127,11 @@ TEST(Numerics, DebyeDefectAgainstQuadrature) {
 }
 
 TEST(Numerics, RootsOfEulerianPolynomialsNearestZero) {
-  EXPECT_EQ(eulerian_root(2), -1);                                    // 1 + x
-  EXPECT_DOUBLE_EQ(eulerian_root(3), -1 / (2 + std::sqrt(3.0)));      // 1 + 4x + x^2
-  EXPECT_DOUBLE_EQ(eulerian_root(4), -1 / (5 + 2 * std::sqrt(6.0)));  // (1 + x)(1 + 10x + x^2)
+  EXPECT_EQ(eulerian_root(2), -1);                                                         // 1 + x
+  EXPECT_DOUBLE_EQ(static_cast<double>(eulerian_root(3)), -1 / (2 + std::sqrt(3.0)));      // 1 + 4x + x^2
+  EXPECT_DOUBLE_EQ(static_cast<double>(eulerian_root(4)), -1 / (5 + 2 * std::sqrt(6.0)));  // (1 + x)(1 + 10x + x^2)
   for (const int n : {5, 10, 30}) {
-    const double x = eulerian_root(n);
+    const auto x = static_cast<double>(eulerian_root(n));
     double value = 0, slope = 0;
     const Triangle<EulerianRule> table(n + 1, {});
     const auto row = table.row<Narrow>(n);
@@ -140,7 +140,7 @@ TEST(Numerics, RootsOfEulerianPolynomialsNearestZero) {
       value = value * x + row[k].value;
     }
     EXPECT_LE(std::abs(value / slope), 1e-14 * std::abs(x)) << n;
-    EXPECT_GT(x, eulerian_root(n - 1)) << n;
+    EXPECT_GT(x, static_cast<double>(eulerian_root(n - 1))) << n;
   }
 }
 
