@@ -40,7 +40,7 @@ class Archimedean final : public ArchimedeanCopula {
   void log_cdf_into(const PointsRef& u, ColumnOut out) const override {
     for_each_row(u, out, [this](Row row) {
       if (std::ranges::find(row, 0.0) != row.end()) return -kInfinity;
-      return resolve([&]<class T>() { return log_cdf<T>(row); }, [](const auto& x) { return accept_log(x); });
+      return resolve([&]<class T>() { return log_distribution<T>(row); }, [](const auto& x) { return accept_log(x); });
     });
   }
 
@@ -131,7 +131,7 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   template <class T>
-  T log_cdf(Row u) const {
+  T log_distribution(Row u) const {
     if constexpr (HasLogCdf<G>) {
       return generator_.template log_cdf<T>(u);
     } else {
