@@ -90,8 +90,9 @@ TEST_P(Contract, BadShapesAndValuesAreNamed) {
     EXPECT_EQ(copula->dim(), dim);
     Points u = Points::Constant(3, dim, 0.5);
     u(1, dim - 1) = 1.25;
-    for (const auto& [name, compute] : quantities()) {
+    for (const auto& [name, quantity] : quantities()) {
       SCOPED_TRACE(name);
+      const auto& compute = quantity;  // Clang 14 cannot capture a structured binding
       const std::string narrow =
           message_of<std::invalid_argument>([&] { (void)compute(*copula, Points::Constant(3, dim + 1, 0.5)); });
       EXPECT_NE(narrow.find("got " + std::to_string(dim + 1)), std::string::npos) << narrow;
