@@ -12,11 +12,13 @@
 #include "tests/support/family_cases.hpp"
 
 /// A suite for TEST_P over the registered families.
+// NOLINTBEGIN(bugprone-macro-parentheses): a class name takes none
 #define SKLAR_FAMILY_SUITE(Suite)                                           \
   class Suite : public sklar::test::FamilyTest {};                          \
   INSTANTIATE_TEST_SUITE_P(                                                 \
       Family, Suite, testing::ValuesIn(sklar::test::registered_families()), \
       [](const testing::TestParamInfo<const sklar::FamilyInfo*>& each) { return each.param->name; })
+// NOLINTEND(bugprone-macro-parentheses)
 
 namespace sklar::test {
 
