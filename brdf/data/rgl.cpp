@@ -73,7 +73,7 @@ std::vector<double> read_theta_i(const TensorFile& file) {
     file.fail("holds spectra and no field 'rgb'; only RGB files are read");
   }
   const FloatTensor tensor = file.floats("theta_i", 1);
-  const std::vector<double> theta_i(tensor.values.begin(), tensor.values.end());
+  std::vector<double> theta_i(tensor.values.begin(), tensor.values.end());
   const bool ascending = std::adjacent_find(theta_i.begin(), theta_i.end(), std::greater_equal<>()) == theta_i.end();
   if (!ascending || theta_i.front() < 0 || theta_i.back() > kPi / 2 + kFloatRounding) {
     file.fail("field 'theta_i' must ascend within [0, pi/2]");

@@ -22,9 +22,10 @@ void finish_command(CLI::App& command, Common& common, std::function<void()> job
 
 namespace {
 
-/// Runs the job of the chosen subcommand. @throws CLI::ParseError for wrong usage.
-void run(CLI::App& app, int argc, char** argv) {
+/// Runs the job of the chosen subcommand. @return the exit status. @throws CLI::ParseError for wrong usage.
+int run(int argc, char** argv) {
   Common common;
+  CLI::App app{"Copulas, and reflectance models built on them", "sklar"};
   app.set_version_flag("--version", SKLAR_VERSION);
   app.require_subcommand(1);
   add_families(app, common);
@@ -40,10 +41,15 @@ void run(CLI::App& app, int argc, char** argv) {
   add_brdf_fit(*brdf, common);
   add_brdf_render(*brdf, common);
 
-  app.parse(argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  }
   const auto threads = common.threads > 0 ? static_cast<unsigned>(common.threads) : std::thread::hardware_concurrency();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads > 0 ? threads : 1);
   common.job();
+  return 0;
 }
 
 int fail(int status, std::string message) {
@@ -58,11 +64,8 @@ int fail(int status, std::string message) {
 }  // namespace sklar::cli
 
 int main(int argc, char** argv) {
-  CLI::App app{"Copulas, and reflectance models built on them", "sklar"};
   try {
-    sklar::cli::run(app, argc, argv);
-  } catch (const CLI::Success& request) {
-    return app.exit(request);
+    return sklar::cli::run(argc, argv);
   } catch (const CLI::ParseError& error) {
     return sklar::cli::fail(2, std::string(error.what()) + " (--help shows the usage)");
   } catch (const std::bad_alloc&) {
@@ -70,5 +73,4 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return sklar::cli::fail(1, error.what());
   }
-  return 0;
 }
