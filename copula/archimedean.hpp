@@ -2,8 +2,8 @@
 /// Archimedean<G>: density, cdf, conditionals and their inverses in any dimension, written once over a Generator.
 ///
 /// Every number is computed with a running error bound, in double first; where the bound exceeds the tolerance below,
-/// that row is repeated in Wide. So every row meets the tolerance whatever the parameter, and no row depends on
-/// another.
+/// that row is repeated in long double, then in Wide. So a row meets the tolerance or, where not even Wide resolves it,
+/// is NaN (of the registered families only with |theta| above 1e15); no row depends on another.
 
 #include <algorithm>
 #include <array>
