@@ -204,6 +204,7 @@ std::vector<Expression> factors_of(const Expression& e) {
 
 namespace {
 
+/// Until a visit returns false.
 template <class Visit>
 void visit_once(const Expression& root, Visit visit) {
   std::unordered_set<Expression, ExpressionHash> seen{root};
@@ -211,7 +212,7 @@ void visit_once(const Expression& root, Visit visit) {
   while (!open.empty()) {
     const Expression e = open.back();
     open.pop_back();
-    visit(e);
+    if (!visit(e)) return;
     for (const Expression& arg : e.args()) {
       if (seen.insert(arg).second) open.push_back(arg);
     }
@@ -220,9 +221,9 @@ void visit_once(const Expression& root, Visit visit) {
 
 }  // namespace
 
-std::size_t node_count(const Expression& e) {
+std::size_t node_count(const Expression& e, std::size_t most) {
   std::size_t count = 0;
-  visit_once(e, [&count](const Expression&) { ++count; });
+  visit_once(e, [&](const Expression&) { return ++count < most; });
   return count;
 }
 
@@ -230,6 +231,7 @@ std::vector<std::string> symbols(const Expression& e) {
   std::vector<std::string> names;
   visit_once(e, [&names](const Expression& node) {
     if (node.kind() == Kind::symbol) names.push_back(node.name());
+    return true;
   });
   std::sort(names.begin(), names.end());
   return names;

@@ -101,8 +101,8 @@ struct ExpressionHash {
 /// max_terms terms is left as it is.
 [[nodiscard]] Expression expand(const Expression& e, std::size_t max_terms = 10000);
 
-/// Number of distinct nodes.
-[[nodiscard]] std::size_t node_count(const Expression& e);
+/// Number of distinct nodes, or `most` where there are more.
+[[nodiscard]] std::size_t node_count(const Expression& e, std::size_t most = SIZE_MAX);
 
 /// Names of the symbols in e, in alphabetical order.
 [[nodiscard]] std::vector<std::string> symbols(const Expression& e);

@@ -13,8 +13,9 @@ namespace sklar::symbolic {
 
 namespace {
 
-constexpr std::size_t kPairedTerms = 16;   // pairs are sought in sums of up to this many terms,
-constexpr std::size_t kExpandedTerms = 4;  // and in those that have up to this many when multiplied out
+constexpr std::size_t kPairedTerms = 16;    // pairs are sought in sums of up to this many terms,
+constexpr std::size_t kExpandedTerms = 4;   // and in those that have up to this many when multiplied out,
+constexpr std::size_t kExpandedNodes = 64;  // which takes small expressions: the coefficients of high orders are deep
 
 /// A pair A and -A X of terms, where X - 1 has an accurate form: A - A X = -A expm1(log X).
 struct Pair {
@@ -76,7 +77,7 @@ PairedSum find_pairs(const Expression& e) {
 /// As it stands or multiplied out, whichever has more pairs.
 PairedSum best_pairs(const Expression& e) {
   PairedSum plain = find_pairs(e);
-  if (e.args().size() > kExpandedTerms) return plain;
+  if (e.args().size() > kExpandedTerms || node_count(e, kExpandedNodes) == kExpandedNodes) return plain;
   const Expression expanded = expand(e, kExpandedTerms);
   if (expanded == e || expanded.kind() != Kind::sum || expanded.args().size() > kExpandedTerms) return plain;
   PairedSum other = find_pairs(expanded);
