@@ -2,8 +2,8 @@
 /// Archimedean<G>: density, cdf, conditionals and their inverses in any dimension, written once over a Generator.
 ///
 /// Every number is computed with a running error bound, in double first; where the bound exceeds the tolerance below,
-/// that row is repeated in long double, then in Wide. So a row meets the tolerance or, where not even Wide resolves it,
-/// is NaN (of the registered families only with |theta| above 1e15); no row depends on another.
+/// that row is repeated in long double, then with 70, 140, 280, ... digits. So a row meets the tolerance or, where
+/// kLastDigits do not resolve it, is NaN; no row depends on another.
 
 #include <algorithm>
 #include <array>
@@ -92,8 +92,10 @@ class Archimedean final : public ArchimedeanCopula {
   static double resolve(const Kernel& kernel, const Accept& accept) {
     if (const auto answer = accept(kernel.template operator()<Narrow>())) return *answer;
     if (const auto answer = accept(kernel.template operator()<Extended>())) return *answer;
-    const WideExponents exponents;
-    if (const auto answer = accept(kernel.template operator()<Widest>())) return *answer;
+    for (int digits = kFirstDigits; digits <= kLastDigits; digits *= 2) {
+      const WorkingPrecision precision(digits);
+      if (const auto answer = accept(kernel.template operator()<Widest>())) return *answer;
+    }
     return std::numeric_limits<double>::quiet_NaN();
   }
 
@@ -107,7 +109,7 @@ class Archimedean final : public ArchimedeanCopula {
 
   static constexpr long double kResolution = 0x1p-1080L;  // far below the smallest double; 0 as a double
 
-  // e^x or 1 - e^x from x = log of a probability. Results below the normal range are left to Wide.
+  // e^x or 1 - e^x from x = log of a probability. Results below the normal range are left to wider types.
   template <class Real>
   static std::optional<double> accept_probability(const Bounded<Real>& x, Tail tail, double tolerance) {
     using std::isfinite;

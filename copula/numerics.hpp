@@ -2,9 +2,11 @@
 /// Cancellation-free building blocks, templates over the number type T (Narrow, Extended, Widest).
 
 #include <cmath>
+#include <functional>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "copula/bounded.hpp"
@@ -85,9 +87,28 @@ template <class T, class Rate>
   }
 }
 
+/// A value for each working precision that was asked for, each made once; safe to share between threads.
+template <class Value>
+class PerWorkingPrecision {
+ public:
+  /// @param make fills a Value in the working precision in force.
+  template <class Make>
+  [[nodiscard]] const Value& get(const Make& make) const {
+    const std::lock_guard lock(mutex_);
+    const auto [place, added] = values_.try_emplace(WorkingPrecision::bits());
+    if (added) make(place->second);
+    return place->second;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::map<long, Value> values_;  // addresses stay
+};
+
 /// Coefficients c(n,k), 0 <= k < max(n,1), of a two-term recurrence; c(0,0) = c(1,0) = 1.
 /// Rule::entry<T>(n, k, same, left) gives c(n,k) from same = c(n-1,k) and left = c(n-1,k-1) (0 outside the triangle).
-/// Rows for Narrow and Extended are built at once, those for Widest on first use; safe to share between threads.
+/// Rows for Narrow and Extended are built at once, those for Widest on first use in a precision; safe to share between
+/// threads.
 template <class Rule>
 class Triangle {
  public:
@@ -103,8 +124,7 @@ class Triangle {
     } else if constexpr (std::is_same_v<T, Extended>) {
       return extended_[static_cast<std::size_t>(n)];
     } else {
-      std::call_once(once_, [this] { build(wide_); });
-      return wide_[static_cast<std::size_t>(n)];
+      return wide_.get([this](std::vector<std::vector<T>>& rows) { build(rows); })[static_cast<std::size_t>(n)];
     }
   }
 
@@ -128,32 +148,36 @@ class Triangle {
   Rule rule_;
   std::vector<std::vector<Narrow>> narrow_;
   std::vector<std::vector<Extended>> extended_;
-  mutable std::vector<std::vector<Widest>> wide_;
-  mutable std::once_flag once_;
+  PerWorkingPrecision<std::vector<std::vector<Widest>>> wide_;
 };
 
-/// One value of Constants<T> for each number type, built at once: what a generator needs of its parameters alone.
+/// One value of Constants<T> for each number type and working precision, made once: what a generator needs of its
+/// parameters alone. Arguments are kept as copies.
 template <template <class> class Constants>
 class PerPrecision {
  public:
   template <class... Arguments>
-  explicit PerPrecision(const Arguments&... arguments) : values_(build(arguments...)) {}
+  explicit PerPrecision(const Arguments&... arguments)
+      : narrow_(arguments...),
+        extended_(arguments...),
+        make_wide_([arguments...](std::optional<Constants<Widest>>& wide) { wide.emplace(arguments...); }) {}
 
   template <class T>
   [[nodiscard]] const Constants<T>& get() const {
-    return std::get<Constants<T>>(values_);
+    if constexpr (std::is_same_v<T, Narrow>) {
+      return narrow_;
+    } else if constexpr (std::is_same_v<T, Extended>) {
+      return extended_;
+    } else {
+      return *wide_.get(make_wide_);
+    }
   }
 
  private:
-  using Values = std::tuple<Constants<Narrow>, Constants<Extended>, Constants<Widest>>;
-
-  template <class... Arguments>
-  static Values build(const Arguments&... arguments) {
-    const WideExponents exponents;
-    return Values(Constants<Narrow>(arguments...), Constants<Extended>(arguments...), Constants<Widest>(arguments...));
-  }
-
-  Values values_;
+  Constants<Narrow> narrow_;
+  Constants<Extended> extended_;
+  std::function<void(std::optional<Constants<Widest>>&)> make_wide_;
+  PerWorkingPrecision<std::optional<Constants<Widest>>> wide_;
 };
 
 /// Eulerian numbers A(n,k) / n!, the coefficients of A_n(x) / n! (DLMF 26.14.8): positive, sum 1.

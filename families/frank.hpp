@@ -53,8 +53,13 @@ class Frank {
   template <class T>
   T log_psi(const T& t) const {
     const T x = constants<T>().q * exp(-t);
-    constexpr double kFirstOrder = 1e-40;  // x^2 is below the resolution of Wide
-    if (abs(x) < T(kFirstOrder)) return x / T(2) - t - constants<T>().log_theta_by_q;
+    using std::abs;
+    using Real = decltype(x.value);
+    const auto resolution = std::numeric_limits<Real>::epsilon();
+    if (abs(x.value) < resolution) {  // log(-log(1-x)/x) = x/2 + O(x^2)
+      const T first_order = x / T(2) - t - constants<T>().log_theta_by_q;
+      return {first_order.value, Real(first_order.error + resolution * abs(x.value))};
+    }
     return -minus_log_value(exp(-t), -expm1(-t));
   }
 

@@ -1,39 +1,15 @@
 #include "copula/symbolic/evaluate.hpp"
 
 #include <algorithm>
-#include <boost/multiprecision/mpfr.hpp>
-#include <mutex>
 #include <optional>
 
+#include "copula/big_float.hpp"
 #include "copula/error.hpp"
 #include "copula/symbolic/tape_evaluator.hpp"
 
 namespace sklar::symbolic {
 
 namespace {
-
-using BigFloat =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<0>, boost::multiprecision::et_off>;
-
-/// Decimal digits of new BigFloats while it lives. The setting belongs to the whole process, hence the lock.
-class Precision {
- public:
-  explicit Precision(int digits) : lock_(mutex()), before_(BigFloat::default_precision()) {
-    BigFloat::default_precision(static_cast<unsigned>(digits));
-  }
-  ~Precision() { BigFloat::default_precision(before_); }
-  Precision(const Precision&) = delete;
-  Precision& operator=(const Precision&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex only;
-    return only;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  unsigned before_;
-};
 
 template <class Real>
 bool accepted(const Bounded<Real>& x, const EvaluationOptions& options) {
@@ -97,7 +73,7 @@ class Promoter {
     bool finite = extended_.finite();
     int digits = 0;
     for (int next = kFirstDigits; next <= options_.max_digits; next *= 2) {
-      const Precision precision(digits = next);
+      const WorkingPrecision precision(digits = next);
       RowRunner<BigFloat> run(tape_);
       if (auto values = run(inputs, options_)) return {*values, digits};
       finite = run.finite();

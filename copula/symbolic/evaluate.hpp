@@ -23,7 +23,7 @@ struct Evaluation {
 
 /// Runs a tape in double with a running error bound. A row that misses the tolerance is repeated in long double, then
 /// with 50, 100, 200, ... digits and the exponent range of MPFR, until its bound meets it. Rows do not influence each
-/// other. Multiprecision rows of different threads wait for one another.
+/// other.
 /// @param inputs rows x tape.inputs().size(), taken as exact. A row with NaN gives NaN.
 /// @throws std::invalid_argument for a wrong number of columns; std::domain_error for a row whose value is not defined,
 /// not finite, or not resolved with max_digits digits (as a value that is exactly zero by cancellation), naming the

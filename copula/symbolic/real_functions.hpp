@@ -5,10 +5,10 @@
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/special_functions/polygamma.hpp>
-#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <limits>
 
+#include "copula/big_float.hpp"
 #include "copula/bounded.hpp"
 
 namespace sklar::symbolic::real {
@@ -83,31 +83,16 @@ Real polygamma(int order, const Real& x) {
   return x > 0 ? boost::math::polygamma(order, x, Quiet()) : std::numeric_limits<Real>::quiet_NaN();
 }
 
-template <unsigned Digits, boost::multiprecision::mpfr_allocation_type Storage,
-          boost::multiprecision::expression_template_option Lazy>
-using Mpfr = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<Digits, Storage>, Lazy>;
-
-template <unsigned D, boost::multiprecision::mpfr_allocation_type S,
-          boost::multiprecision::expression_template_option L>
-Mpfr<D, S, L> gamma(const Mpfr<D, S, L>& x) {
-  Mpfr<D, S, L> result = std::numeric_limits<Mpfr<D, S, L>>::quiet_NaN();
-  if (x > 0) mpfr_gamma(result.backend().data(), x.backend().data(), MPFR_RNDN);
-  return result;
+[[nodiscard]] inline BigFloat gamma(const BigFloat& x) {
+  return x > 0 ? tgamma(x) : std::numeric_limits<BigFloat>::quiet_NaN();
 }
-template <unsigned D, boost::multiprecision::mpfr_allocation_type S,
-          boost::multiprecision::expression_template_option L>
-Mpfr<D, S, L> lgamma(const Mpfr<D, S, L>& x) {
-  Mpfr<D, S, L> result = std::numeric_limits<Mpfr<D, S, L>>::quiet_NaN();
-  if (x > 0) mpfr_lngamma(result.backend().data(), x.backend().data(), MPFR_RNDN);
-  return result;
+[[nodiscard]] inline BigFloat lgamma(const BigFloat& x) {
+  return x > 0 ? sklar::lgamma(x) : std::numeric_limits<BigFloat>::quiet_NaN();
 }
-template <unsigned D, boost::multiprecision::mpfr_allocation_type S,
-          boost::multiprecision::expression_template_option L>
-Mpfr<D, S, L> digamma(const Mpfr<D, S, L>& x) {
-  Mpfr<D, S, L> result = std::numeric_limits<Mpfr<D, S, L>>::quiet_NaN();
-  if (x > 0) mpfr_digamma(result.backend().data(), x.backend().data(), MPFR_RNDN);
-  return result;
+[[nodiscard]] inline BigFloat digamma(const BigFloat& x) {
+  return x > 0 ? sklar::digamma(x) : std::numeric_limits<BigFloat>::quiet_NaN();
 }
+[[nodiscard]] BigFloat polygamma(int order, const BigFloat& x);
 
 /// The value itself where a bound goes with it.
 template <class Real>

@@ -1,11 +1,18 @@
 #pragma once
-/// A real number whose width is chosen at run time: Digits::default_precision(decimal digits).
+/// A real number whose width is chosen at run time, by a WorkingPrecision.
 
-#include <boost/multiprecision/mpfr.hpp>
+#include <ostream>
 
-namespace sklar::test {
+#include "copula/big_float.hpp"
 
-using Digits =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<0>, boost::multiprecision::et_off>;
+namespace sklar {
 
-}  // namespace sklar::test
+inline std::ostream& operator<<(std::ostream& out, const BigFloat& x) {
+  return out << to_text(x, 20);
+}
+
+namespace test {
+using Digits = BigFloat;
+}
+
+}  // namespace sklar

@@ -1,125 +1,50 @@
 #include "tests/support/psi_reference.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <map>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
-#include "tests/support/jet.hpp"
+#include "copula/symbolic/derivative.hpp"
+#include "copula/symbolic/parser.hpp"
+#include "copula/symbolic/tape_evaluator.hpp"
 
 namespace sklar::test {
 
 namespace {
 
-using DigitsJet = Jet<Digits>;
-
 constexpr double kAgreement = 1e-30;  // relative
 constexpr double kLogarithm = 1;      // below this size absolute
 constexpr double kProbability = 1e-310;
 
-// A recursive-descent reader of psi: numbers, t, parameters, + - * / ^, exp, log, parentheses. x^a means (x)_+^a.
-class Expression {
- public:
-  Expression(std::string_view text, const FamilyInfo& family, const Theta& theta, const DigitsJet& t)
-      : text_(text), family_(family), theta_(theta), t_(t) {}
+using symbolic::Expression;
+using symbolic::Kind;
 
-  DigitsJet read() {
-    const DigitsJet value = sum();
-    if (at_ != text_.size()) fail();
-    return value;
-  }
+bool is_whole(const Expression& e) {
+  return e.is_number() && symbolic::power(-1, e).is_number() && symbolic::power(-1, 2 * e) == Expression(1);
+}
 
- private:
-  DigitsJet constant(const Digits& value) const { return {t_.order(), value}; }
+// psi = 0 where one of these is not positive: the bases in t of powers that are not whole.
+void add_bases(const Expression& e, std::vector<Expression>& bases) {
+  static const Expression t = symbolic::symbol("t");
+  if (e.kind() == Kind::power && e.args()[0].depends_on(t) && !is_whole(e.args()[1])) bases.push_back(e.args()[0]);
+  for (const Expression& arg : e.args()) add_bases(arg, bases);
+}
 
-  DigitsJet sum() {
-    DigitsJet value = accept('-') ? constant(0) - product() : product();
-    for (;;) {
-      if (accept('+')) {
-        value = value + product();
-      } else if (accept('-')) {
-        value = value - product();
-      } else {
-        return value;
-      }
-    }
-  }
-
-  DigitsJet product() {
-    DigitsJet value = power();
-    for (;;) {
-      if (accept('*')) {
-        value = value * power();
-      } else if (accept('/')) {
-        value = value / power();
-      } else {
-        return value;
-      }
-    }
-  }
-
-  DigitsJet power() {
-    const DigitsJet base = primary();
-    return accept('^') ? pow(base, power()) : base;
-  }
-
-  DigitsJet primary() {
-    if (accept('-')) return constant(0) - power();
-    if (accept('(')) return closed(sum());
-    if (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0) {
-      return constant(
-          Digits(take([](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.'; })));
-    }
-    const std::string name = take([](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; });
-    if (name == "t") return t_;
-    if (name == "exp" && accept('(')) return exp(closed(sum()));
-    if (name == "log" && accept('(')) return log(closed(sum()));
-    for (std::size_t i = 0; i < theta_.size(); ++i) {
-      if (family_.parameters[i].name == name) return constant(Digits(theta_[i]));
-    }
-    fail();
-  }
-
-  DigitsJet closed(DigitsJet value) {
-    if (!accept(')')) fail();
-    return value;
-  }
-
-  bool accept(char c) {
-    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
-    if (at_ == text_.size() || text_[at_] != c) return false;
-    ++at_;
-    return true;
-  }
-
-  template <class Belongs>
-  std::string take(const Belongs& belongs) {
-    const std::size_t first = at_;
-    while (at_ < text_.size() && belongs(text_[at_])) ++at_;
-    return std::string(text_.substr(first, at_ - first));
-  }
-
-  [[noreturn]] void fail() const {
-    throw std::runtime_error("PsiReference: cannot read '" + std::string(text_) + "' at " + std::to_string(at_));
-  }
-
-  std::string_view text_;
-  const FamilyInfo& family_;
-  const Theta& theta_;
-  const DigitsJet& t_;
-  std::size_t at_ = 0;
-};
+template <class Compute>
+std::vector<Digits> with_digits(int digits, const Compute& compute) {
+  const WorkingPrecision precision(digits);
+  return compute();
+}
 
 // compute() in ever wider numbers until two widths agree, relative to the result or to `floor` if that is larger.
 template <class Compute>
 std::vector<Digits> in_two_widths(double floor, const Compute& compute) {
-  for (unsigned digits = 100; digits <= 1600; digits *= 2) {
-    Digits::default_precision(digits);
-    const std::vector<Digits> narrow = compute();
-    Digits::default_precision(digits + digits / 2);
-    std::vector<Digits> wider = compute();
-    const bool resolved = pow(Digits(10), -static_cast<int>(digits)) < floor;  // else a difference may vanish unseen
+  for (int digits = 100; digits <= 1600; digits *= 2) {
+    const std::vector<Digits> narrow = with_digits(digits, compute);
+    std::vector<Digits> wider = with_digits(digits + digits / 2, compute);
+    const WorkingPrecision precision(digits);
+    const bool resolved = pow(Digits(10), -digits) < floor;  // else a difference may vanish unseen
     const auto agree = [&](const Digits& a, const Digits& b) {
       const Digits size = abs(b);
       if (b == 0 && !resolved) return false;
@@ -132,16 +57,63 @@ std::vector<Digits> in_two_widths(double floor, const Compute& compute) {
 
 }  // namespace
 
-std::vector<Digits> PsiReference::derivatives(std::size_t order, const Digits& t) const {
-  const DigitsJet variable = DigitsJet::variable(order, t);
-  const DigitsJet psi = Expression(family_.psi, family_, theta_, variable).read();
-  std::vector<Digits> result;
-  Digits factorial = 1;
-  for (std::size_t k = 0; k <= order; ++k) {
-    if (k > 1) factorial *= k;
-    result.push_back(psi.coefficient(k) * factorial);
+/// Tapes of psi and its derivatives, and their registers in each precision used.
+class PsiReference::Tapes {
+ public:
+  explicit Tapes(const FamilyInfo& family)
+      : psi_(symbolic::parse(family.psi)), derivatives_(psi_, symbolic::symbol("t")) {
+    names_.emplace_back("t");
+    for (const ParameterInfo& parameter : family.parameters) names_.push_back(parameter.name);
+    std::vector<Expression> bases;
+    add_bases(psi_, bases);
+    tapes_.try_emplace(kSupport, bases, names_);
   }
-  return result;
+
+  bool in_support(const std::vector<Digits>& inputs) {
+    std::vector<Digits> bases(tapes_.at(kSupport).outputs().size());
+    run(kSupport, inputs, bases);
+    return std::all_of(bases.begin(), bases.end(), [](const Digits& base) { return base > 0; });
+  }
+
+  Digits derivative(int order, const std::vector<Digits>& inputs) {
+    if (!tapes_.contains(order)) tapes_.try_emplace(order, std::vector{derivatives_(order)}, names_);
+    std::vector<Digits> value(1);
+    run(order, inputs, value);
+    return value[0];
+  }
+
+ private:
+  static constexpr int kSupport = -1;
+
+  void run(int which, const std::vector<Digits>& inputs, std::vector<Digits>& outputs) {
+    evaluators_.try_emplace({which, WorkingPrecision::bits()}, tapes_.at(which)).first->second(inputs, outputs);
+  }
+
+  Expression psi_;
+  symbolic::Derivatives derivatives_;
+  std::vector<std::string> names_;
+  std::map<int, symbolic::Tape> tapes_;
+  std::map<std::pair<int, long>, symbolic::TapeEvaluator<Digits, 1>> evaluators_;
+};
+
+PsiReference::PsiReference(const FamilyInfo& family, Theta theta) : theta_(std::move(theta)) {
+  static std::map<std::string, std::shared_ptr<Tapes>> known;  // by psi: derivatives of high order take seconds
+  std::shared_ptr<Tapes>& tapes = known[family.psi];
+  if (!tapes) tapes = std::make_shared<Tapes>(family);
+  tapes_ = tapes;
+}
+
+std::vector<Digits> PsiReference::derivatives(int first, int last, const Digits& t) const {
+  std::vector<Digits> inputs{t};
+  for (const double value : theta_) inputs.emplace_back(value);
+  std::vector<Digits> values(static_cast<std::size_t>(last - first + 1), Digits(0));
+  if (!tapes_->in_support(inputs)) return values;
+  for (int k = first; k <= last; ++k) values[static_cast<std::size_t>(k - first)] = tapes_->derivative(k, inputs);
+  return values;
+}
+
+Digits PsiReference::derivative(int order, const Digits& t) const {
+  return derivatives(order, order, t)[0];
 }
 
 // Newton for log(-log psi) as a function of log t, nearly a straight line for most generators, inside a bracket; by
@@ -150,11 +122,11 @@ Digits PsiReference::inverse(const Digits& u) const {
   constexpr int kPatience = 40, kBisections = 60, kMaxSteps = 200;
   const Digits target = log(-log(u));
   // A step this small leaves an error near its square: all the digits that cancellation in psi leaves.
-  const Digits resolution = pow(Digits(10), -static_cast<int>(Digits::default_precision()) / 2);
+  const Digits resolution = sqrt(std::numeric_limits<Digits>::epsilon());
   Digits x = 0, below = -1e9, above = 1e9;
   for (int step = 0; step < kMaxSteps; ++step) {
     const Digits t = exp(x);
-    const std::vector<Digits> psi = derivatives(1, t);
+    const std::vector<Digits> psi = derivatives(0, 1, t);
     const bool outside = !(psi[0] > 0 && psi[0] < 1);  // beyond the support, or too near its ends for this width
     const Digits minus_log = outside ? Digits(0) : Digits(-log(psi[0]));
     const Digits excess = outside ? Digits(psi[0] < 1 ? 1 : -1) : Digits(log(minus_log) - target);
@@ -174,9 +146,7 @@ Digits PsiReference::sum_of_inverses(std::span<const double> u) const {
 }
 
 Digits PsiReference::log_abs_dpsi(int k, double t) const {
-  const auto order = static_cast<std::size_t>(k);
-  return in_two_widths(kLogarithm,
-                       [&] { return std::vector<Digits>{log(abs(derivatives(order, Digits(t))[order]))}; })[0];
+  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(abs(derivative(k, Digits(t))))}; })[0];
 }
 
 Digits PsiReference::log_density(std::span<const double> u) const {
@@ -185,14 +155,14 @@ Digits PsiReference::log_density(std::span<const double> u) const {
     for (const double value : u) {
       const Digits part = inverse(Digits(value));
       t += part;
-      weights += log(abs(derivatives(1, part)[1]));
+      weights += log(abs(derivative(1, part)));
     }
-    return std::vector<Digits>{log(abs(derivatives(u.size(), t)[u.size()])) - weights};
+    return std::vector<Digits>{log(abs(derivative(static_cast<int>(u.size()), t))) - weights};
   })[0];
 }
 
 Digits PsiReference::log_cdf(std::span<const double> u) const {
-  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(derivatives(0, sum_of_inverses(u))[0])}; })[0];
+  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(derivative(0, sum_of_inverses(u)))}; })[0];
 }
 
 Digits PsiReference::volume(std::span<const double> lower, std::span<const double> upper) const {
@@ -209,7 +179,7 @@ Digits PsiReference::volume(std::span<const double> lower, std::span<const doubl
         t += at_low ? low[i] : high[i];
         odd = odd != at_low;
       }
-      const Digits value = derivatives(0, t)[0];
+      const Digits value = derivative(0, t);
       total += odd ? Digits(-value) : value;
     }
     return std::vector<Digits>{total};
@@ -219,18 +189,18 @@ Digits PsiReference::volume(std::span<const double> lower, std::span<const doubl
 Digits PsiReference::tau_integrand(double v) const {
   return in_two_widths(kProbability, [&] {
     const Digits t = inverse(Digits(v));
-    return std::vector<Digits>{t * derivatives(1, t)[1]};
+    return std::vector<Digits>{t * derivative(1, t)};
   })[0];
 }
 
 PsiReference::Conditional PsiReference::conditional(std::span<const double> given, const Digits& v) const {
   const std::vector<Digits> result = in_two_widths(kProbability, [&] {
-    const std::size_t j = given.size();
+    const int j = static_cast<int>(given.size());
     const Digits before = sum_of_inverses(given), step = inverse(v);
-    const Digits scale = derivatives(j, before)[j];
-    const std::vector<Digits> here = derivatives(j + 1, before + step);
-    const Digits h = here[j] / scale;
-    return std::vector<Digits>{h, 1 - h, here[j + 1] / scale / derivatives(1, step)[1]};
+    const Digits scale = derivative(j, before);
+    const std::vector<Digits> here = derivatives(j, j + 1, before + step);
+    const Digits h = here[0] / scale;
+    return std::vector<Digits>{h, 1 - h, here[1] / scale / derivative(1, step)};
   });
   return {result[0], result[1], result[2]};
 }

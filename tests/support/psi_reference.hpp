@@ -1,8 +1,9 @@
 #pragma once
-/// The independent judge: every quantity of a copula from the textbook psi of FamilyInfo alone, by truncated Taylor
-/// series in multiprecision, as wide as it takes for two widths to agree. Slow and simple; shares no formula with
+/// The independent judge: every quantity of a copula from the textbook psi of FamilyInfo alone, differentiated
+/// symbolically and evaluated in multiprecision, as wide as it takes for two widths to agree. Shares no formula with
 /// families/.
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,7 @@ class PsiReference {
  public:
   /// @param theta admissible in the dimension of the questions asked.
   /// Every call throws std::runtime_error where no two widths agree.
-  PsiReference(const FamilyInfo& family, Theta theta) : family_(family), theta_(std::move(theta)) {}
+  PsiReference(const FamilyInfo& family, Theta theta);
 
   /// log |psi^(k)(t)|.
   [[nodiscard]] Digits log_abs_dpsi(int k, double t) const;
@@ -41,12 +42,16 @@ class PsiReference {
   [[nodiscard]] Digits tau_integrand(double v) const;
 
  private:
-  std::vector<Digits> derivatives(std::size_t order, const Digits& t) const;
+  class Tapes;
+
+  /// psi^(order)(t), and those of orders first to last; 0 beyond the support.
+  Digits derivative(int order, const Digits& t) const;
+  std::vector<Digits> derivatives(int first, int last, const Digits& t) const;
   Digits inverse(const Digits& u) const;
   Digits sum_of_inverses(std::span<const double> u) const;
 
-  const FamilyInfo& family_;
   Theta theta_;
+  std::shared_ptr<Tapes> tapes_;
 };
 
 }  // namespace sklar::test

@@ -16,7 +16,7 @@ namespace {
 using test::Digits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr unsigned kDigits = 200;
+constexpr int kDigits = 200;
 constexpr double kBoundRounding = 1e-9;  // the bounds themselves are rounded sums
 
 /// A number with its bound, and the same expression in 200 digits.
@@ -40,28 +40,37 @@ double random_leaf(Rng& rng) {
   return mantissa * std::exp(std::uniform_real_distribution<double>(-20, 8)(rng));
 }
 
+template <class Number>
+Number step(unsigned which, const Number& a, const Number& b) {
+  switch (which) {
+    case 0:
+      return a + b;
+    case 1:
+      return a - b;
+    case 2:
+      return a * b;
+    case 3:
+      return a / b;
+    case 4:
+      return exp(a);
+    case 5:
+      return expm1(a);
+    case 6:
+      return log(abs(a));
+    case 7:
+      return log1p(a);
+    default:
+      return sqrt(abs(a));
+  }
+}
+
 template <class T>
 Tracked<T> random_step(Rng& rng, const Tracked<T>& a, const Tracked<T>& b) {
-  switch (rng() % 9) {
-    case 0:
-      return {a.bounded + b.bounded, a.exact + b.exact};
-    case 1:
-      return {a.bounded - b.bounded, a.exact - b.exact};
-    case 2:
-      return {a.bounded * b.bounded, a.exact * b.exact};
-    case 3:
-      return {a.bounded / b.bounded, a.exact / b.exact};
-    case 4:
-      return {exp(a.bounded), exp(a.exact)};
-    case 5:
-      return {expm1(a.bounded), expm1(a.exact)};
-    case 6:
-      return {log(abs(a.bounded)), log(abs(a.exact))};
-    case 7:
-      return {log1p(a.bounded), log1p(a.exact)};
-    default:
-      return {sqrt(abs(a.bounded)), sqrt(abs(a.exact))};
-  }
+  const auto which = static_cast<unsigned>(rng() % 9);
+  const WorkingPrecision narrow(kFirstDigits);  // where T has one
+  const T bounded = step(which, a.bounded, b.bounded);
+  const WorkingPrecision wide(kDigits);
+  return {bounded, step(which, a.exact, b.exact)};
 }
 
 /// Whether the bound claims nothing, or what it claims is true.
@@ -80,7 +89,7 @@ testing::AssertionResult holds(const Tracked<T>& x) {
 }
 
 TYPED_TEST(BoundedTest, BoundHoldsForRandomExpressions) {
-  Digits::default_precision(kDigits);
+  const WorkingPrecision precision(kDigits);
   Rng rng(test::seed_of_this_test());
   constexpr int kExpressions = std::is_same_v<TypeParam, Widest> ? 2000 : 20000;
   for (int n = 0; n < kExpressions; ++n) {

@@ -15,7 +15,7 @@ namespace {
 using test::Digits;
 
 constexpr double kRelative = 4e-15;  // a handful of roundings, none amplified
-constexpr unsigned kDigits = 700;    // 1 - e^-x for x = 1e-300, and room
+constexpr int kDigits = 700;         // 1 - e^-x for x = 1e-300, and room
 
 /// Agreement in Narrow relative to `scale`, and that the bound it carries is small and true.
 void expect_within(const Digits& scale, const Narrow& value, const Digits& expected, const char* what, double x) {
@@ -36,7 +36,7 @@ void expect_accurate_log(const Narrow& value, const Digits& expected, const char
 }
 
 TEST(Numerics, LogarithmsOfDifferences) {
-  Digits::default_precision(kDigits);
+  const WorkingPrecision precision(kDigits);
   for (const double x : {1e-300, 1e-20, 1e-5, 0.1, 0.6931, 0.6932, 1.0, 5.0, 29.9, 30.1, 200.0, 700.0}) {
     expect_accurate(log1mexp(Narrow(x)), log(1 - exp(-Digits(x))), "log1mexp", x);
     expect_accurate_log(log_expm1(Narrow(x)), log(exp(Digits(x)) - 1), "log_expm1", x);
@@ -48,7 +48,7 @@ TEST(Numerics, LogarithmsOfDifferences) {
 }
 
 TEST(Numerics, LogRatioKeepsItsDigitsWhereTheTwoAreNear) {
-  Digits::default_precision(kDigits);
+  const WorkingPrecision precision(kDigits);
   const double v = 0.3;
   for (const double u : {5e-324, 1e-100, 0.1, 0.2, 0.29, std::nextafter(v, 0), std::nextafter(v, 1), 0.5, 0.7, 1.0}) {
     const Narrow value = log_ratio<Narrow>(u, v, log(Narrow(u)), log(Narrow(v)));
@@ -62,9 +62,9 @@ TEST(Numerics, NotPositiveIsSure) {
   EXPECT_FALSE(not_positive(doubtful));
   EXPECT_TRUE(not_positive(Narrow(0)));
   EXPECT_FALSE(not_positive(Narrow(5e-324)));
-  EXPECT_TRUE(not_positive(Widest(Wide(0), Wide(1e-60))));
-  EXPECT_FALSE(not_positive(Widest(Wide(1e-50), Wide(1e-60))));
-  EXPECT_FALSE(not_positive(Widest(Wide(-1), Widest::unknown())));
+  EXPECT_TRUE(not_positive(Widest(BigFloat(0), BigFloat(1e-60))));
+  EXPECT_FALSE(not_positive(Widest(BigFloat(1e-50), BigFloat(1e-60))));
+  EXPECT_FALSE(not_positive(Widest(BigFloat(-1), Widest::unknown())));
 }
 
 TEST(Numerics, SolvesIncreasingFunctions) {
@@ -88,6 +88,7 @@ TEST(Numerics, TriangleGivesEulerianNumbers) {
   // DLMF 26.14, table 26.14.1.
   const std::array<std::vector<double>, 4> known = {{{1, 1}, {1, 4, 1}, {1, 11, 11, 1}, {1, 26, 66, 26, 1}}};
   const Triangle<EulerianRule> table(171, {});
+  const WorkingPrecision precision(kFirstDigits);
   double factorial = 1;
   for (int n = 2; n <= 5; ++n) {
     factorial *= n;
@@ -97,13 +98,25 @@ TEST(Numerics, TriangleGivesEulerianNumbers) {
     for (std::size_t k = 0; k < narrow.size(); ++k) {
       const double expected = known[static_cast<std::size_t>(n) - 2][k];
       EXPECT_NEAR(narrow[k].value * factorial, expected, kRelative * expected);
-      EXPECT_LE(abs(wide[k].value * factorial - expected), Wide(1e-65));
+      EXPECT_LE(abs(wide[k].value * factorial - expected), BigFloat(1e-65));
     }
   }
   Narrow sum(0);
   for (const Narrow& coefficient : table.row<Narrow>(170)) sum += coefficient;
   EXPECT_LE(std::abs(sum.value - 1), sum.error);
   EXPECT_LE(sum.error, 1e-12);
+}
+
+TEST(Numerics, WideRowsHaveTheDigitsInForce) {
+  const Triangle<EulerianRule> table(30, {});
+  for (const int digits : {70, 140, 70}) {
+    const WorkingPrecision precision(digits);
+    Widest sum(0);
+    for (const Widest& coefficient : table.row<Widest>(29)) sum += coefficient;
+    EXPECT_LE(sum.error, pow(BigFloat(10), 3 - digits));
+    EXPECT_GT(sum.error, pow(BigFloat(10), -5 - digits));
+    EXPECT_LE(abs(sum.value - 1), sum.error);
+  }
 }
 
 TEST(Numerics, CumulativeSums) {
