@@ -70,6 +70,7 @@ class Tape {
 
  private:
   friend class TapeCompiler;
+  friend class SplitTape;
 
   std::vector<std::string> inputs_;
   std::vector<Instruction> instructions_;

@@ -40,60 +40,27 @@ struct FromConstant<Bounded<Real>> {
   }
 };
 
-/// Runs a tape on rows of inputs, kWidth rows an instruction. Holds its registers: one evaluator a thread.
-template <class Real, std::size_t kWidth = 16>
-class TapeEvaluator {
+/// The instructions on registers of kWidth lanes each.
+template <class Real, std::size_t kWidth>
+class Lanes {
  public:
-  /// The tape must outlive the evaluator. Constants are converted here, in the precision in force.
-  explicit TapeEvaluator(const Tape& tape) : tape_(tape), registers_(tape.instructions().size() * kWidth, Real(0)) {
-    for (const TapeConstant& constant : tape.constants()) constants_.push_back(FromConstant<Real>::convert(constant));
-  }
+  explicit Lanes(Real* registers) : registers_(registers) {}
 
-  /// @param inputs rows x tape.inputs().size(), row after row. @param outputs rows x tape.outputs().size(), likewise.
-  /// @throws std::invalid_argument unless both hold the same whole number of rows.
-  void operator()(std::span<const Real> inputs, std::span<Real> outputs) {
-    const std::size_t m = tape_.outputs().size();
-    const std::size_t n = tape_.inputs().size();
-    if (m == 0) return;
-    const std::size_t rows = outputs.size() / m;
-    if (rows * m != outputs.size() || rows * n != inputs.size()) {
-      throw std::invalid_argument("tape: inputs and outputs do not hold the same whole number of rows");
-    }
-    for (std::size_t row = 0; row < rows; row += kWidth) {
-      const std::size_t count = std::min(kWidth, rows - row);
-      run(inputs.subspan(row * n, count * n), n, count);
-      for (std::size_t j = 0; j < m; ++j) {
-        const Real* result = at(tape_.outputs()[j]);
-        for (std::size_t i = 0; i < count; ++i) outputs[(row + i) * m + j] = result[i];
-      }
-    }
+  [[nodiscard]] Real* at(std::int32_t slot) const { return registers_ + static_cast<std::size_t>(slot) * kWidth; }
+
+  /// Any instruction but constant and input, on the first count lanes.
+  void run(const Instruction& instruction, Real* out, std::size_t count) const {
+    instruction.op <= Op::log_abs_near_one ? run_arithmetic(instruction, out, count)
+                                           : run_function(instruction, out, count);
   }
 
  private:
-  Real* at(std::int32_t slot) { return registers_.data() + static_cast<std::size_t>(slot) * kWidth; }
-
-  void run(std::span<const Real> inputs, std::size_t n, std::size_t count) {
-    std::int32_t slot = 0;
-    for (const Instruction& instruction : tape_.instructions()) {
-      Real* out = at(slot++);
-      if (instruction.op == Op::constant) {
-        std::fill_n(out, count, constants_[static_cast<std::size_t>(instruction.a)]);
-      } else if (instruction.op == Op::input) {
-        for (std::size_t i = 0; i < count; ++i) out[i] = inputs[i * n + static_cast<std::size_t>(instruction.a)];
-      } else if (instruction.op <= Op::log_abs_near_one) {
-        run_arithmetic(instruction, out, count);
-      } else {
-        run_function(instruction, out, count);
-      }
-    }
-  }
-
   template <class F>
   static void each(Real* out, std::size_t count, F f) {
     for (std::size_t i = 0; i < count; ++i) out[i] = f(i);
   }
 
-  void run_arithmetic(const Instruction& instruction, Real* out, std::size_t count) {
+  void run_arithmetic(const Instruction& instruction, Real* out, std::size_t count) const {
     const Real* a = at(instruction.a);
     const int whole = instruction.b;
     const Real* b = instruction.op == Op::whole_power ? a : at(instruction.b);
@@ -124,7 +91,7 @@ class TapeEvaluator {
     }
   }
 
-  void run_function(const Instruction& instruction, Real* out, std::size_t count) {
+  void run_function(const Instruction& instruction, Real* out, std::size_t count) const {
     using real::sin, real::cos, real::tan, real::atan;
     using std::exp, std::expm1, std::log, std::sqrt, std::sin, std::cos, std::tan, std::atan;
     const Real* a = at(instruction.a);
@@ -178,6 +145,54 @@ class TapeEvaluator {
   static Real power_near_one(const Real& x, const Real& y, const Real& one_plus_x) {
     using std::exp, std::log1p;
     return is_small(x) ? Real(exp(Real(y * log1p(x)))) : Real(real::power(one_plus_x, y));
+  }
+
+  Real* registers_;
+};
+
+/// Runs a tape on rows of inputs, kWidth rows an instruction. Holds its registers: one evaluator a thread.
+template <class Real, std::size_t kWidth = 16>
+class TapeEvaluator {
+ public:
+  /// The tape must outlive the evaluator. Constants are converted here, in the precision in force.
+  explicit TapeEvaluator(const Tape& tape) : tape_(tape), registers_(tape.instructions().size() * kWidth, Real(0)) {
+    for (const TapeConstant& constant : tape.constants()) constants_.push_back(FromConstant<Real>::convert(constant));
+  }
+
+  /// @param inputs rows x tape.inputs().size(), row after row. @param outputs rows x tape.outputs().size(), likewise.
+  /// @throws std::invalid_argument unless both hold the same whole number of rows.
+  void operator()(std::span<const Real> inputs, std::span<Real> outputs) {
+    const std::size_t m = tape_.outputs().size();
+    const std::size_t n = tape_.inputs().size();
+    if (m == 0) return;
+    const std::size_t rows = outputs.size() / m;
+    if (rows * m != outputs.size() || rows * n != inputs.size()) {
+      throw std::invalid_argument("tape: inputs and outputs do not hold the same whole number of rows");
+    }
+    for (std::size_t row = 0; row < rows; row += kWidth) {
+      const std::size_t count = std::min(kWidth, rows - row);
+      run(inputs.subspan(row * n, count * n), n, count);
+      for (std::size_t j = 0; j < m; ++j) {
+        const Real* result = Lanes<Real, kWidth>(registers_.data()).at(tape_.outputs()[j]);
+        for (std::size_t i = 0; i < count; ++i) outputs[(row + i) * m + j] = result[i];
+      }
+    }
+  }
+
+ private:
+  void run(std::span<const Real> inputs, std::size_t n, std::size_t count) {
+    const Lanes<Real, kWidth> lanes(registers_.data());
+    std::int32_t slot = 0;
+    for (const Instruction& instruction : tape_.instructions()) {
+      Real* out = lanes.at(slot++);
+      if (instruction.op == Op::constant) {
+        std::fill_n(out, count, constants_[static_cast<std::size_t>(instruction.a)]);
+      } else if (instruction.op == Op::input) {
+        for (std::size_t i = 0; i < count; ++i) out[i] = inputs[i * n + static_cast<std::size_t>(instruction.a)];
+      } else {
+        lanes.run(instruction, out, count);
+      }
+    }
   }
 
   const Tape& tape_;
