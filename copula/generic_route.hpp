@@ -23,11 +23,13 @@ template <class T, Generator G>
 /// log c(u) = log |psi^(d)(t)| - sum log |psi'(psi^-1(u_i))|.
 template <class T, Generator G>
 [[nodiscard]] T generic_log_density(const G& g, std::span<const double> u) {
-  T log_c = g.log_abs_dpsi(static_cast<int>(u.size()), generic_sum<T>(g, u));
+  T t(0.0), log_slopes(0.0);
   for (const double value : u) {
-    log_c -= g.log_abs_dpsi(1, value < 1 ? g.template psi_inv<T>(value) : T(0.0));
+    const T part = value < 1 ? g.template psi_inv<T>(value) : T(0.0);
+    t += part;
+    log_slopes += g.log_abs_dpsi(1, part);
   }
-  return log_c;
+  return g.log_abs_dpsi(static_cast<int>(u.size()), t) - log_slopes;
 }
 
 /// log h = log |psi^(j)(t_k)| - log |psi^(j)(t_j)|, j = k - 1 values given.

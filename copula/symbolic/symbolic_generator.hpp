@@ -1,0 +1,174 @@
+#pragma once
+/// A generator given as a formula, with values for its parameters.
+
+#include <limits>
+
+#include "copula/generator.hpp"
+#include "copula/numerics.hpp"
+#include "copula/symbolic/generator_formula.hpp"
+#include "copula/types.hpp"
+
+namespace sklar::symbolic {
+
+/// What a formula needs of the values of its parameters alone, for one number type.
+template <class T>
+struct PreparedFormula {
+  PreparedFormula(const std::shared_ptr<const GeneratorFormula>& formula, const Theta& theta, int dim) {
+    for (int order = 0; order <= dim; ++order) {
+      derivatives.push_back(formula->derivative(order).template prepare<T>(theta));
+    }
+    const auto prepare = [&](const SplitTape* tape) {
+      return tape == nullptr ? std::vector<T>() : tape->template prepare<T>(theta);
+    };
+    log_psi_near_zero = prepare(formula->log_psi_near_zero());
+    inverse = prepare(formula->inverse());
+    inverse_near_one = prepare(formula->inverse_near_one());
+  }
+
+  std::vector<std::vector<T>> derivatives;
+  std::vector<T> log_psi_near_zero, inverse, inverse_near_one;
+};
+
+/// Satisfies Generator for orders 0..dim. Where a condition of the formula is not positive, t is beyond the support and
+/// psi is 0, as in (1 + theta t)_+. A number whose sign or value its type does not resolve has an infinite error bound.
+/// Immutable; copies share what they hold. Whether psi is a generator at all: require_generator.
+class SymbolicGenerator {
+ public:
+  /// @param dim 2 to kMaxDimension. @param theta one value a parameter of the formula.
+  /// @throws std::domain_error for a given inverse that is none.
+  SymbolicGenerator(std::shared_ptr<const GeneratorFormula> formula, int dim, Theta theta);
+
+  static constexpr int kUnknownSign = 2;
+
+  template <class T>
+  [[nodiscard]] T log_psi(const T& t) const {
+    const T direct = log_abs_dpsi(0, t);
+    if (!use_near_zero_ || direct < T(-0.5)) return direct;
+    const T near = run(*formula_->log_psi_near_zero(), prepared<T>().log_psi_near_zero, t);
+    return near.error < direct.error ? near : direct;
+  }
+
+  template <class T>
+  [[nodiscard]] T psi_inv(double u) const {
+    if (inverse_ == Inverse::numeric) return solve<T>(u);
+    const bool near_one = use_near_one_ && u > 0.5;
+    const T first = inverse_at<T>(u, near_one);
+    if (!use_near_one_ || first.error <= kGoodEnough * abs(first).value) return first;
+    const T second = inverse_at<T>(u, !near_one);
+    return second.error < first.error ? second : first;
+  }
+
+  template <class T>
+  [[nodiscard]] T log_abs_dpsi(int k, const T& t) const {
+    const auto order = static_cast<std::size_t>(k);
+    const std::vector<T>& prepared_tape = prepared<T>().derivatives[order];
+    const auto values = derivatives_[order]->template run<T>(prepared_tape, t);
+    const int inside = sign_of_conditions(values);
+    if (inside < 0) return T(-kInfinity);
+    const int wrong = k % 2 == 0 ? -1 : 1;
+    return inside == kUnknownSign || sign_of_factors(values) == wrong ? unknown<T>() : values[0];
+  }
+
+  /// Sign of psi^(k)(t), 0 beyond the support, kUnknownSign where T does not resolve it; and log|psi^(k)(t)|.
+  template <class T>
+  [[nodiscard]] std::pair<int, T> signed_derivative(int k, const T& t) const {
+    const auto order = static_cast<std::size_t>(k);
+    const auto values = derivatives_[order]->template run<T>(prepared<T>().derivatives[order], t);
+    const int inside = sign_of_conditions(values);
+    if (inside < 0) return {0, T(-kInfinity)};
+    return {inside == kUnknownSign ? kUnknownSign : sign_of_factors(values), values[0]};
+  }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr double kGoodEnough = 1e-15;  ///< relative error of psi^-1 that no other form improves much
+  enum class Inverse { formula, numeric };
+
+  template <class T>
+  using Real = std::remove_cvref_t<decltype(T().value)>;
+
+  template <class T>
+  static T unknown() {
+    return {std::numeric_limits<Real<T>>::quiet_NaN(), std::numeric_limits<Real<T>>::infinity()};
+  }
+
+  /// -1, 0 or 1 where it is certain, else kUnknownSign. Zero is certain only if exact.
+  template <class T>
+  static int sign_of(const T& x) {
+    if (x.value > x.error) return 1;
+    if (-x.value > x.error) return -1;
+    return x.value == 0 && x.error == 0 ? 0 : kUnknownSign;
+  }
+
+  /// -1 where any condition is negative, kUnknownSign where one is not resolved.
+  template <class T>
+  int sign_of_conditions(const SplitTape::Values<T>& values) const {
+    for (std::size_t i = 1; i <= formula_->conditions(); ++i) {
+      const int sign = sign_of(values[i]);
+      if (sign < 0 || sign == kUnknownSign) return sign;
+    }
+    return 1;
+  }
+
+  template <class T>
+  int sign_of_factors(const SplitTape::Values<T>& values) const {
+    int sign = 1;
+    for (std::size_t i = 1 + formula_->conditions(); i < values.size(); ++i) {
+      const int next = sign_of(values[i]);
+      if (next == kUnknownSign) return kUnknownSign;
+      sign *= next;
+    }
+    return sign;
+  }
+
+  template <class T>
+  const PreparedFormula<T>& prepared() const {
+    return prepared_->template get<T>();
+  }
+
+  template <class T>
+  static T run(const SplitTape& tape, const std::vector<T>& prepared_tape, const T& x) {
+    return tape.template run<T>(prepared_tape, x)[0];
+  }
+
+  template <class T>
+  T inverse_at(double u, bool near_one) const {
+    if (near_one) return run(*formula_->inverse_near_one(), prepared<T>().inverse_near_one, T(1) - T(u));
+    return run(*formula_->inverse(), prepared<T>().inverse, T(u));
+  }
+
+  /// The t with -log psi(t) = -log u by solve_increasing; wider types start from the solution in double.
+  template <class T>
+  T solve(double u) const {
+    if (u == 0) return formula_->conditions() == 0 ? T(kInfinity) : unknown<T>();
+    const auto rate = [this](const T& t) {
+      const T level = -log_psi(t);
+      return std::pair<T, T>(level, exp(log_abs_dpsi(1, t) + level));
+    };
+    double start = 1;
+    if constexpr (!std::is_same_v<T, Narrow>) {
+      const double narrow = solve<Narrow>(u).value;
+      if (narrow > 0 && narrow < kInfinity) start = narrow;
+    }
+    return solve_increasing(rate, -log(T(u)), T(start));
+  }
+
+  void choose_near_zero();
+  void choose_inverse();
+  template <class T>
+  [[nodiscard]] std::optional<bool> near_zero_agrees() const;
+  template <class T>
+  [[nodiscard]] std::optional<bool> inverse_agrees(bool near_one) const;
+
+  std::shared_ptr<const GeneratorFormula> formula_;
+  int dim_;
+  Theta theta_;
+  std::vector<const SplitTape*> derivatives_;
+  std::shared_ptr<const PerPrecision<PreparedFormula>> prepared_;
+  bool use_near_zero_ = false, use_near_one_ = false;
+  Inverse inverse_ = Inverse::numeric;
+};
+
+static_assert(Generator<SymbolicGenerator>);
+
+}  // namespace sklar::symbolic
