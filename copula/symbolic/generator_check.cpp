@@ -49,7 +49,7 @@ class Check {
     const auto good = [](const auto& x) { return x.error <= 1e-15 || x.error <= 1e-15 * abs(x).value; };
     if (const Narrow x = kernel.template operator()<Narrow>(); good(x)) return x.value;
     if (const Extended x = kernel.template operator()<Extended>(); good(x)) return static_cast<double>(x.value);
-    const WideExponents exponents;
+    const WorkingPrecision precision(kFirstDigits);
     const Widest x = kernel.template operator()<Widest>();
     return good(x) ? static_cast<double>(x.value) : std::numeric_limits<double>::quiet_NaN();
   }
@@ -63,7 +63,7 @@ class Check {
   [[nodiscard]] bool vanishes() const {
     const Narrow limit = generator_.log_psi(Narrow(kInfinity));
     if (std::isfinite(limit.error)) return limit.value == -kInfinity;
-    const WideExponents exponents;
+    const WorkingPrecision precision(kFirstDigits);
     const Widest far = generator_.log_psi(exp(Widest(kFarLogT)));
     const Widest half_way = generator_.log_psi(exp(Widest(kFarLogT / 2)));
     return far.value + far.error < kLogVanishing || far.value + far.error < 1.05 * (half_way.value - half_way.error);
@@ -85,7 +85,7 @@ class Check {
 
   void require_sign(int order, double t) const {
     if (decided<Narrow>(order, t) || decided<Extended>(order, t)) return;
-    const WideExponents exponents;
+    const WorkingPrecision precision(kFirstDigits);
     decided<Widest>(order, t);
   }
 

@@ -21,7 +21,7 @@ template <class Answer>
 bool decide(const Answer& answer) {
   if (const auto found = answer.template operator()<Narrow>()) return *found;
   if (const auto found = answer.template operator()<Extended>()) return *found;
-  const WideExponents exponents;
+  const WorkingPrecision precision(kFirstDigits);
   return answer.template operator()<Widest>().value_or(false);
 }
 
