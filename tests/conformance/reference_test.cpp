@@ -71,14 +71,15 @@ void for_each_case(const std::vector<FamilyCase>& cases, Index points, const Vis
 }
 
 TEST_P(TextbookPsi, LogDensityAndLogCdf) {
-  for_each_case(cases({2, 3, 4, 5, 6, 10}), 6, [](const Copula& copula, const PsiReference& reference, const Points& u) {
-    const Column log_pdf = copula.log_pdf(u), log_cdf = copula.log_cdf(u);
-    for (Index i = 0; i < u.rows(); ++i) {
-      const std::vector<double> row = row_of(u, i);
-      EXPECT_TRUE(logarithm_agrees(log_pdf(i), reference.log_density(row))) << "log_pdf" << row_text(u, i);
-      EXPECT_TRUE(logarithm_agrees(log_cdf(i), reference.log_cdf(row))) << "log_cdf" << row_text(u, i);
-    }
-  });
+  for_each_case(
+      cases({2, 3, 4, 5, 6, 10}), 6, [](const Copula& copula, const PsiReference& reference, const Points& u) {
+        const Column log_pdf = copula.log_pdf(u), log_cdf = copula.log_cdf(u);
+        for (Index i = 0; i < u.rows(); ++i) {
+          const std::vector<double> row = row_of(u, i);
+          EXPECT_TRUE(logarithm_agrees(log_pdf(i), reference.log_density(row))) << "log_pdf" << row_text(u, i);
+          EXPECT_TRUE(logarithm_agrees(log_cdf(i), reference.log_cdf(row))) << "log_cdf" << row_text(u, i);
+        }
+      });
 }
 
 TEST_P(TextbookPsi, HighDimension) {
