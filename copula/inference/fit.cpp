@@ -7,6 +7,7 @@
 #include "copula/inference/checks.hpp"
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/fitter.hpp"
+#include "copula/inference/score.hpp"
 
 namespace sklar {
 namespace {
@@ -128,8 +129,15 @@ FitResult fit_maximum_likelihood(const FamilyInfo& family, const PointsRef& u, c
   const std::vector<double> start = likelihood_start(fitter, u(rows, Eigen::all), pick(weights, rows));
   // About two sampling errors of the start.
   const double step = std::min(1.5 / std::sqrt(static_cast<double>(rows.size())), fitter.scale().spacing());
-  fitter.search([&](const Copula& copula) { return likelihood_objective(copula, u, weights, fitter.chunking()); },
-                start, fitter.scale().by_tau() ? step : fitter.scale().spacing());
+  const auto objective = [&](const Copula& copula) {
+    return likelihood_objective(copula, u, weights, fitter.chunking());
+  };
+  if (fitter.scale().by_tau()) {
+    fitter.search(objective, start, step);
+  } else {
+    const SampleScore score(family, u, weights, fitter.chunking());
+    fitter.search(objective, start, fitter.scale().spacing(), score.symbolic() ? Score(std::cref(score)) : Score());
+  }
   FitResult& result = fitter.result();
   // 0 - x, so that a likelihood of 0 has no sign.
   fitter.set_likelihood(result.nonfinite == 0 ? 0 - result.objective : -std::numeric_limits<double>::infinity(),

@@ -5,6 +5,7 @@
 
 #include "copula/error.hpp"
 #include "copula/inference/information.hpp"
+#include "copula/inference/score.hpp"
 
 namespace sklar {
 namespace {
@@ -50,14 +51,22 @@ std::vector<double> Fitter::best_of_lattice(const Objective& objective) const {
   return best;
 }
 
-void Fitter::search(const CopulaObjective& objective, const std::vector<double>& start, double step) {
+void Fitter::search(const CopulaObjective& objective, const std::vector<double>& start, double step,
+                    const Score& score) {
   const auto at = [&](const std::vector<double>& z) {
     ++result_.evaluations;
     return objective(*copula(scale_.theta(z)));
   };
   const MinimiseOptions options{
       .step = step, .tolerance = options_.tolerance, .max_evaluations = options_.max_evaluations};
-  Minimum minimum = minimise(at, start, scale_.box(), options);
+  const Gradient gradient = [&](const std::vector<double>& z) {
+    std::vector<double> slopes = score(scale_.theta(z));
+    const std::vector<double> by_z = scale_.slope(z);
+    for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] *= -by_z[i];
+    return slopes;
+  };
+  Minimum minimum = minimise(at, start, scale_.box(), options, score ? gradient : Gradient());
+  if (score && minimum.stop == MinimiseStop::failed) minimum = minimise(at, minimum.z, scale_.box(), options);
   // Broken rows have no slope to follow: look elsewhere.
   if (minimum.best.nonfinite > 0 && scale_.size() > 0) {
     minimum = minimise(at, best_of_lattice(at), scale_.box(), options);
@@ -89,13 +98,9 @@ void Fitter::set_likelihood(double log_likelihood, double total_weight) {
 
 void Fitter::add_standard_errors(const PointsRef& u, const ColumnRef& weights) {
   if (result_.status != FitStatus::converged) return;
-  const auto l = [&](const Theta& theta) {
-    return log_likelihood(*copula(theta), u, weights, chunking()).or_nothing();
-  };
-  // A tenth of about one sampling error of z.
-  const double z_step = 0.1 / std::sqrt(total_weight(weights, u.rows()));
-  result_.standard_error =
-      standard_errors(l, result_.theta, result_.log_likelihood, scale_.domain(), theta_steps(z_step));
+  constexpr double kStep = 1e-4;  // of z: the information is off by its square, and by rounding over it
+  const SampleScore score(family_, u, weights, chunking());
+  result_.standard_error = standard_errors(score, result_.theta, scale_.domain(), theta_steps(kStep));
 }
 
 void Fitter::judge(const Minimum& minimum) {

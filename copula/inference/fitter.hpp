@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "copula/inference/fit.hpp"
+#include "copula/inference/information.hpp"
 #include "copula/inference/minimise.hpp"
 #include "copula/inference/objective.hpp"
 #include "copula/inference/parameter_scale.hpp"
@@ -35,7 +36,8 @@ class Fitter {
   [[nodiscard]] std::vector<double> best_of_lattice(const CopulaObjective& objective) const;
 
   /// Minimises from start and records parameters, objective, status, evaluations and message.
-  void search(const CopulaObjective& objective, const std::vector<double>& start, double step);
+  /// @param score of the sample, where -objective is its log likelihood and there are several parameters.
+  void search(const CopulaObjective& objective, const std::vector<double>& start, double step, const Score& score = {});
 
   void set_theta(Theta theta);
 

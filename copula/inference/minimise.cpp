@@ -3,6 +3,7 @@
 #include <nlopt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -15,6 +16,7 @@ using Optimiser = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 /// What NLopt's callback needs. C code must not see an exception: it is kept, and the search told to stop.
 struct Search {
   const Objective& objective;
+  const Gradient& gradient;
   nlopt_opt optimiser;
   Minimum result = {};
   std::exception_ptr thrown = {};
@@ -28,12 +30,21 @@ struct Search {
     }
     last = evaluation.value;
   }
+
+  void differentiate(const std::vector<double>& z, double* slopes) {
+    for (const double slope : gradient(z)) {
+      if (!std::isfinite(slope)) nlopt_force_stop(optimiser);
+      *slopes++ = slope;
+    }
+  }
 };
 
-double callback(unsigned n, const double* z, double*, void* data) noexcept {
+double callback(unsigned n, const double* z, double* slopes, void* data) noexcept {
   Search& search = *static_cast<Search*>(data);
   try {
-    search.evaluate(std::vector<double>(z, z + n));
+    const std::vector<double> at(z, z + n);
+    search.evaluate(at);
+    if (slopes != nullptr) search.differentiate(at, slopes);
   } catch (...) {
     search.thrown = std::current_exception();
     nlopt_force_stop(search.optimiser);
@@ -50,10 +61,11 @@ MinimiseStop stop_reason(nlopt_result code) {
 }  // namespace
 
 Minimum minimise(const Objective& objective, const std::vector<double>& start, const Box& box,
-                 const MinimiseOptions& options) {
+                 const MinimiseOptions& options, const Gradient& gradient) {
   const auto n = static_cast<unsigned>(start.size());
-  Optimiser optimiser(n > 0 ? nlopt_create(NLOPT_LN_BOBYQA, n) : nullptr, &nlopt_destroy);
-  Search search{.objective = objective, .optimiser = optimiser.get()};
+  const nlopt_algorithm algorithm = gradient ? NLOPT_LD_SLSQP : NLOPT_LN_BOBYQA;
+  Optimiser optimiser(n > 0 ? nlopt_create(algorithm, n) : nullptr, &nlopt_destroy);
+  Search search{.objective = objective, .gradient = gradient, .optimiser = optimiser.get()};
   if (n == 0) {
     search.evaluate(start);
     return search.result;

@@ -1,5 +1,5 @@
 #pragma once
-/// Minimisation without derivatives within bounds. The one place that uses NLopt.
+/// Minimisation within bounds. The one place that uses NLopt.
 
 #include <functional>
 #include <vector>
@@ -19,6 +19,9 @@ struct Evaluation {
 };
 
 using Objective = std::function<Evaluation(const std::vector<double>& z)>;
+
+/// The derivative of the value by each coordinate; where it is not finite the search gives up.
+using Gradient = std::function<std::vector<double>(const std::vector<double>& z)>;
 
 struct Box {
   std::vector<double> lower;
@@ -40,11 +43,13 @@ struct Minimum {
   MinimiseStop stop = MinimiseStop::tolerance;
 };
 
-/// Local minimum by quadratic models in a trust region (BOBYQA, Powell 2009; in one dimension too, where it takes about
-/// ten evaluations from a good start). Rounding that stops progress counts as reaching the tolerance.
+/// Local minimum, without a gradient by quadratic models in a trust region (BOBYQA, Powell 2009; in one dimension too,
+/// where it takes about ten evaluations from a good start), with one by sequential quadratic programming (SLSQP, Kraft
+/// 1994), which takes about as many in any number of dimensions. Rounding that stops progress counts as reaching the
+/// tolerance.
 /// @param start   inside the box. For no coordinates the objective is evaluated once.
 /// @throws what the objective throws.
 [[nodiscard]] Minimum minimise(const Objective& objective, const std::vector<double>& start, const Box& box,
-                               const MinimiseOptions& options);
+                               const MinimiseOptions& options, const Gradient& gradient = {});
 
 }  // namespace sklar

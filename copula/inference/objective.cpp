@@ -1,31 +1,11 @@
 #include "copula/inference/objective.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
-#include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "copula/inference/chunks.hpp"
 
 namespace sklar {
 namespace {
-
-template <class Body>
-RowSum sum_over_chunks(Index rows, const Chunking& chunking, const Body& body) {
-  const Index chunks = (rows + chunking.rows - 1) / chunking.rows;
-  std::vector<RowSum> parts(static_cast<std::size_t>(chunks));
-  const auto work = [&](Index chunk) {
-    const Index first = chunk * chunking.rows;
-    parts[static_cast<std::size_t>(chunk)] = body(first, std::min(chunking.rows, rows - first));
-  };
-  if (chunking.parallel && chunks > 1) {
-    oneapi::tbb::parallel_for(Index{0}, chunks, work);
-  } else {
-    for (Index chunk = 0; chunk < chunks; ++chunk) work(chunk);
-  }
-  RowSum sum;
-  for (const RowSum& part : parts) sum += part;
-  return sum;
-}
 
 /// sum w_i term_i; no weights means one each. A finite total has finite terms: only else are rows looked at one by one.
 RowSum weighted_sum(const Column& term, const ColumnRef& weights) {
@@ -60,7 +40,7 @@ RowSum& RowSum::operator+=(const RowSum& other) {
 }
 
 RowSum log_likelihood(const Copula& copula, const PointsRef& u, const ColumnRef& weights, const Chunking& chunking) {
-  return sum_over_chunks(u.rows(), chunking, [&](Index first, Index count) {
+  return sum_over_chunks(u.rows(), chunking, RowSum(), [&](Index first, Index count) {
     const Column term = copula.log_pdf(u.middleRows(first, count));
     return weighted_sum(term, weights.segment(weights.size() > 0 ? first : 0, segment_length(weights, count)));
   });
@@ -68,7 +48,7 @@ RowSum log_likelihood(const Copula& copula, const PointsRef& u, const ColumnRef&
 
 RowSum squared_error(const Copula& copula, const CellTable& cells, const Chunking& chunking) {
   const ColumnRef weights = cells.weight;
-  return sum_over_chunks(cells.u.rows(), chunking, [&](Index first, Index count) {
+  return sum_over_chunks(cells.u.rows(), chunking, RowSum(), [&](Index first, Index count) {
     const auto margin = cells.margin.segment(first, count);
     Column model = Column::Zero(count);
     if ((margin > 0).any()) {

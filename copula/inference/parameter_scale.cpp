@@ -29,6 +29,11 @@ double to_z(double theta, const Interval& domain) {
   return std::isfinite(domain.highest) ? -std::log1p(domain.highest - theta) : std::asinh(theta);
 }
 
+double theta_slope(double z, const Interval& domain) {
+  if (std::isfinite(domain.lowest)) return std::isfinite(domain.highest) ? 1 : std::exp(z);
+  return std::isfinite(domain.highest) ? std::exp(-z) : std::cosh(z);
+}
+
 double within_search(double tau) {
   return std::clamp(tau, -ParameterScale::kLargestTau, ParameterScale::kLargestTau);
 }
@@ -54,6 +59,12 @@ Theta ParameterScale::theta(const std::vector<double>& z) const {
   Theta theta(size());
   for (std::size_t i = 0; i < size(); ++i) theta[i] = nearest(to_theta(z[i], domain_[i]), domain_[i]);
   return theta;
+}
+
+std::vector<double> ParameterScale::slope(const std::vector<double>& z) const {
+  std::vector<double> slope(size());
+  for (std::size_t i = 0; i < size(); ++i) slope[i] = theta_slope(z[i], domain_[i]);
+  return slope;
 }
 
 Theta ParameterScale::theta_at_tau(double tau) const {

@@ -31,6 +31,9 @@ class ParameterScale {
   /// Admissible parameters. Precondition: z in the box.
   [[nodiscard]] Theta theta(const std::vector<double>& z) const;
 
+  /// d theta_i / d z_i. Precondition: z in the box, not by_tau().
+  [[nodiscard]] std::vector<double> slope(const std::vector<double>& z) const;
+
   /// Admissible parameter with the attainable tau nearest to this one. Precondition: by_tau().
   [[nodiscard]] Theta theta_at_tau(double tau) const;
 

@@ -18,7 +18,8 @@ allowed() {
   render="$data|brdf/(model|analytic|basis|render)/.*"
   case $1 in
     copula) echo "$core" ;;
-    copula/symbolic | copula/simd | copula/inference) echo "$core|$1/.*" ;;
+    copula/symbolic | copula/simd) echo "$core|$1/.*" ;;
+    copula/inference) echo "$core|copula/symbolic/.*|$1/.*" ;;
     families) echo 'copula/.*|families/.*' ;;
     brdf) echo "$root" ;;
     brdf/geometry) echo "$root|$1/.*" ;;
