@@ -7,7 +7,6 @@
 
 #include "copula/symbolic/derivative.hpp"
 #include "copula/symbolic/parser.hpp"
-#include "copula/symbolic/tape_evaluator.hpp"
 
 namespace sklar::test {
 
@@ -57,86 +56,91 @@ std::vector<Digits> in_two_widths(double floor, const Compute& compute) {
 
 }  // namespace
 
-/// Tapes of psi and its derivatives, and their registers in each precision used.
-class PsiReference::Tapes {
+/// psi and its derivatives as tapes, each made when first asked for. Not safe to share between threads.
+class PsiReference::Formulas {
  public:
-  explicit Tapes(const FamilyInfo& family)
+  explicit Formulas(const FamilyInfo& family)
       : psi_(symbolic::parse(family.psi)), derivatives_(psi_, symbolic::symbol("t")) {
-    names_.emplace_back("t");
-    for (const ParameterInfo& parameter : family.parameters) names_.push_back(parameter.name);
-    std::vector<Expression> bases;
-    add_bases(psi_, bases);
-    tapes_.try_emplace(kSupport, bases, names_);
+    for (const ParameterInfo& parameter : family.parameters) parameters_.push_back(parameter.name);
+    add_bases(psi_, bases_);
   }
 
-  bool in_support(const std::vector<Digits>& inputs) {
-    std::vector<Digits> bases(tapes_.at(kSupport).outputs().size());
-    run(kSupport, inputs, bases);
-    return std::all_of(bases.begin(), bases.end(), [](const Digits& base) { return base > 0; });
+  /// kSupport: all bases; else the derivative of this order.
+  const symbolic::SplitTape& tape(int which) {
+    const auto known = tapes_.find(which);
+    if (known != tapes_.end()) return known->second;
+    const auto outputs = which == kSupport ? bases_ : std::vector{derivatives_(which)};
+    return tapes_.try_emplace(which, outputs, "t", parameters_).first->second;
   }
 
-  Digits derivative(int order, const std::vector<Digits>& inputs) {
-    if (!tapes_.contains(order)) tapes_.try_emplace(order, std::vector{derivatives_(order)}, names_);
-    std::vector<Digits> value(1);
-    run(order, inputs, value);
-    return value[0];
-  }
-
- private:
   static constexpr int kSupport = -1;
 
-  void run(int which, const std::vector<Digits>& inputs, std::vector<Digits>& outputs) {
-    evaluators_.try_emplace({which, WorkingPrecision::bits()}, tapes_.at(which)).first->second(inputs, outputs);
-  }
-
+ private:
   Expression psi_;
   symbolic::Derivatives derivatives_;
-  std::vector<std::string> names_;
-  std::map<int, symbolic::Tape> tapes_;
-  std::map<std::pair<int, long>, symbolic::TapeEvaluator<Digits, 1>> evaluators_;
+  std::vector<std::string> parameters_;
+  std::vector<Expression> bases_;
+  std::map<int, symbolic::SplitTape> tapes_;
 };
 
 PsiReference::PsiReference(const FamilyInfo& family, Theta theta) : theta_(std::move(theta)) {
-  static std::map<std::string, std::shared_ptr<Tapes>> known;  // by psi: derivatives of high order take seconds
-  std::shared_ptr<Tapes>& tapes = known[family.psi];
-  if (!tapes) tapes = std::make_shared<Tapes>(family);
-  tapes_ = tapes;
+  static std::map<std::string, std::shared_ptr<Formulas>> known;  // by psi: derivatives of high order take seconds
+  std::shared_ptr<Formulas>& formulas = known[family.psi];
+  if (!formulas) formulas = std::make_shared<Formulas>(family);
+  formulas_ = formulas;
 }
 
-std::vector<Digits> PsiReference::derivatives(int first, int last, const Digits& t) const {
-  std::vector<Digits> inputs{t};
-  for (const double value : theta_) inputs.emplace_back(value);
-  std::vector<Digits> values(static_cast<std::size_t>(last - first + 1), Digits(0));
-  if (!tapes_->in_support(inputs)) return values;
-  for (int k = first; k <= last; ++k) values[static_cast<std::size_t>(k - first)] = tapes_->derivative(k, inputs);
-  return values;
+symbolic::SplitTape::Values<Digits> PsiReference::run(int which, const Digits& t) const {
+  const symbolic::SplitTape& tape = formulas_->tape(which);
+  const auto [place, added] = prepared_.try_emplace({which, WorkingPrecision::bits()});
+  if (added) place->second = tape.prepare<Digits>(theta_);
+  return tape.run<Digits>(place->second, t);
+}
+
+// (x)_+ of all bases: psi is 0 where one is not positive.
+bool PsiReference::in_support(const Digits& t) const {
+  const auto bases = run(Formulas::kSupport, t);
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    if (!(bases[i] > 0)) return false;
+  }
+  return true;
 }
 
 Digits PsiReference::derivative(int order, const Digits& t) const {
-  return derivatives(order, order, t)[0];
+  return in_support(t) ? run(order, t)[0] : Digits(0);
 }
 
 // Newton for log(-log psi) as a function of log t, nearly a straight line for most generators, inside a bracket; by
 // bisection for a while where that does not settle.
-Digits PsiReference::inverse(const Digits& u) const {
+Digits PsiReference::log_inverse(const Digits& target, Digits x) const {
   constexpr int kPatience = 40, kBisections = 60, kMaxSteps = 200;
-  const Digits target = log(-log(u));
   // A step this small leaves an error near its square: all the digits that cancellation in psi leaves.
   const Digits resolution = sqrt(std::numeric_limits<Digits>::epsilon());
-  Digits x = 0, below = -1e9, above = 1e9;
+  Digits below = -1e9, above = 1e9;
   for (int step = 0; step < kMaxSteps; ++step) {
     const Digits t = exp(x);
-    const std::vector<Digits> psi = derivatives(0, 1, t);
-    const bool outside = !(psi[0] > 0 && psi[0] < 1);  // beyond the support, or too near its ends for this width
-    const Digits minus_log = outside ? Digits(0) : Digits(-log(psi[0]));
-    const Digits excess = outside ? Digits(psi[0] < 1 ? 1 : -1) : Digits(log(minus_log) - target);
+    const Digits psi = derivative(0, t);
+    const bool outside = !(psi > 0 && psi < 1);  // beyond the support, or too near its ends for this width
+    const Digits minus_log = outside ? Digits(0) : Digits(-log(psi));
+    const Digits excess = outside ? Digits(psi < 1 ? 1 : -1) : Digits(log(minus_log) - target);
     (excess > 0 ? above : below) = x;
-    const Digits next = outside ? x : Digits(x + excess * psi[0] * minus_log / (t * psi[1]));
-    if (!outside && abs(next - x) <= resolution * (1 + abs(x))) return exp(next);
+    const Digits next = outside ? x : Digits(x + excess * psi * minus_log / (t * derivative(1, t)));
+    if (!outside && abs(next - x) <= resolution * (1 + abs(x))) return next;
     const bool newton = next > below && next < above && (step < kPatience || step >= kPatience + kBisections);
     x = newton ? next : Digits((below + above) / 2);
   }
-  return exp(x);  // the widths will not agree
+  return x;  // the widths will not agree
+}
+
+// Most steps in few digits.
+Digits PsiReference::inverse(const Digits& u) const {
+  constexpr int kFewDigits = 40;
+  Digits start = 0;
+  {
+    const WorkingPrecision precision(kFewDigits);
+    start = log_inverse(log(-log(u)), 0);
+  }
+  return exp(log_inverse(log(-log(u)), start));
 }
 
 Digits PsiReference::sum_of_inverses(std::span<const double> u) const {
@@ -198,9 +202,8 @@ PsiReference::Conditional PsiReference::conditional(std::span<const double> give
     const int j = static_cast<int>(given.size());
     const Digits before = sum_of_inverses(given), step = inverse(v);
     const Digits scale = derivative(j, before);
-    const std::vector<Digits> here = derivatives(j, j + 1, before + step);
-    const Digits h = here[0] / scale;
-    return std::vector<Digits>{h, 1 - h, here[1] / scale / derivative(1, step)};
+    const Digits h = derivative(j, before + step) / scale;
+    return std::vector<Digits>{h, 1 - h, derivative(j + 1, before + step) / scale / derivative(1, step)};
   });
   return {result[0], result[1], result[2]};
 }

@@ -3,11 +3,13 @@
 /// symbolically and evaluated in multiprecision, as wide as it takes for two widths to agree. Shares no formula with
 /// families/.
 
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "copula/family.hpp"
+#include "copula/symbolic/split_tape.hpp"
 #include "tests/support/digits.hpp"
 
 namespace sklar::test {
@@ -42,16 +44,22 @@ class PsiReference {
   [[nodiscard]] Digits tau_integrand(double v) const;
 
  private:
-  class Tapes;
+  class Formulas;
 
-  /// psi^(order)(t), and those of orders first to last; 0 beyond the support.
+  symbolic::SplitTape::Values<Digits> run(int which, const Digits& t) const;
+  bool in_support(const Digits& t) const;
+
+  /// psi^(order)(t), 0 beyond the support.
   Digits derivative(int order, const Digits& t) const;
-  std::vector<Digits> derivatives(int first, int last, const Digits& t) const;
+
+  /// log t with log(-log psi(t)) = target, from a first guess.
+  Digits log_inverse(const Digits& target, Digits guess) const;
   Digits inverse(const Digits& u) const;
   Digits sum_of_inverses(std::span<const double> u) const;
 
   Theta theta_;
-  std::shared_ptr<Tapes> tapes_;
+  std::shared_ptr<Formulas> formulas_;
+  mutable std::map<std::pair<int, long>, std::vector<Digits>> prepared_;  // by formula and bits
 };
 
 }  // namespace sklar::test
