@@ -13,6 +13,6 @@ using Widest = Bounded<BigFloat>;  ///< of the WorkingPrecision in force
 
 /// Decimal digits of Widest in turn, each twice the one before.
 inline constexpr int kFirstDigits = 70;
-inline constexpr int kLastDigits = 70 << 7;
+inline constexpr int kLastDigits = 70 << 5;
 
 }  // namespace sklar
