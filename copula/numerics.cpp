@@ -1,6 +1,8 @@
 #include "copula/numerics.hpp"
 
 #include <boost/math/special_functions/bernoulli.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cstdint>
 #include <numbers>
 
 namespace sklar {
@@ -16,6 +18,17 @@ double debye_integral_from_above(double x) {
 }
 
 }  // namespace
+
+double invert_increasing(const std::function<double(double)>& f, double target, double lowest, double highest) {
+  const auto excess = [&](double x) { return f(x) - target; };
+  const double below = excess(lowest), above = excess(highest);
+  if (below >= 0 || lowest == highest) return lowest;
+  if (above <= 0) return highest;
+  std::uintmax_t steps = 200;
+  const auto [left, right] = boost::math::tools::toms748_solve(excess, lowest, highest, below, above,
+                                                               boost::math::tools::eps_tolerance<double>(52), steps);
+  return left + (right - left) / 2;
+}
 
 double debye_1_defect(double x) {
   if (x < 0) return -debye_1_defect(-x);

@@ -59,6 +59,14 @@ template <class T>
   return sum;
 }
 
+/// The same for the polynomial with the coefficients in reverse order: x^n p(1/x).
+template <class T>
+[[nodiscard]] T reversed_polynomial(std::span<const T> coefficients, const T& x) {
+  T sum = coefficients.front();
+  for (std::size_t k = 1; k < coefficients.size(); ++k) sum = sum * x + coefficients[k];
+  return sum;
+}
+
 /// Root y > 0 of an increasing function N with N(0) = 0 at the level `target` > 0, by Newton steps on log N as a
 /// function of log y, kept inside a bracket. @param rate T -> pair (N(y), N'(y)). @param start first guess, > 0.
 /// @return y; its error follows from the residual and the slope at y.
@@ -195,6 +203,11 @@ template <class T, class Term>
   for (int k = 1; k < count; ++k) sums.push_back(sums.back() + term(T(k)));
   return sums;
 }
+
+/// The x between lowest and highest with f(x) = target, f increasing, to the last places of x; the nearer end where f
+/// does not reach the target there.
+[[nodiscard]] double invert_increasing(const std::function<double(double)>& f, double target, double lowest,
+                                       double highest);
 
 /// 1/4 - (1 - D_1(x)) / x with the first Debye function D_1(x) = (1/x) int_0^x t / (e^t - 1) dt: odd, x/36 near 0,
 /// 1/4 at infinity; relative error below 1e-15 (small x) to 1e-14. Abramowitz and Stegun 27.1.1 and 27.1.2.

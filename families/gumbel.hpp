@@ -177,13 +177,6 @@ class Gumbel {
     return log_scale + log(sum) - (s < T(1) ? T(n - 1) * log(s) : T(0));
   }
 
-  template <class T>
-  static T reversed_polynomial(std::span<const T> row, const T& x) {
-    T sum = row.front();
-    for (std::size_t k = 1; k < row.size(); ++k) sum = sum * x + row[k];
-    return sum;
-  }
-
   // -log h as a function of l = log(s_k / s_j), j values given:
   //   s_j expm1(l) + j (theta-1) l - log( Q_j(s_j e^l) / Q_j(s_j) ), all terms positive.
   template <class T>

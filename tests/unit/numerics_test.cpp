@@ -6,6 +6,7 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <vector>
 
+#include "copula/stirling.hpp"
 #include "families/registry.hpp"
 #include "tests/support/digits.hpp"
 
@@ -119,6 +120,46 @@ TEST(Numerics, WideRowsHaveTheDigitsInForce) {
   }
 }
 
+/// c(n,k) of copula/stirling.hpp by its definition: S(n,k+1) from the alternating sum.
+Digits stirling_coefficient(int n, int k, const Digits& a) {
+  Digits stirling = 0, binomial = 1, factorial = 1;
+  for (int i = 0; i <= k + 1; ++i) {
+    stirling += ((k + 1 - i) % 2 == 0 ? 1 : -1) * binomial * pow(Digits(i), n);
+    binomial = binomial * (k + 1 - i) / (i + 1);
+    if (i > 0) factorial *= i;
+  }
+  Digits rising = 1;
+  for (int i = 1; i <= k; ++i) rising *= i - a;
+  return stirling / factorial * rising;
+}
+
+TEST(StirlingPolynomials, ValueAndRatio) {
+  constexpr double kUnderflow = 1e-290;  // the smallest normal number times the largest coefficient
+  const WorkingPrecision precision(kDigits);
+  for (const double theta : {1.001, 3.0, 1e4, std::numeric_limits<double>::infinity()}) {
+    const Digits a = std::isinf(theta) ? Digits(0) : 1 / Digits(theta);
+    const StirlingPolynomials polynomials(50, theta);
+    for (const int n : {1, 2, 3, 7, 50}) {
+      for (const double y : {0.0, 1e-300, 1e-3, 0.3, 5.0, 1e10, 1e200}) {
+        const auto exact = [&](const Digits& at) {
+          Digits sum = 0;
+          for (int k = n; k-- > 0;) sum = sum * at + stirling_coefficient(n, k, a);
+          return sum;
+        };
+        const Digits here = exact(Digits(y)), there = exact(Digits(y) / 4);
+        const Narrow p = y > 1 ? Narrow(1) : Narrow(y), w = y > 1 ? Narrow(1) / Narrow(y) : Narrow(1);
+        const Narrow value = polynomials.log_value(n, p, w);
+        const auto [decrease, slope] = polynomials.decrease(n, p, w, Narrow(0.25), Narrow(0.75));
+        EXPECT_LE(abs(value.value - log(here)), value.error + kUnderflow) << n << " at " << y;
+        EXPECT_LE(value.error, 1e-14 * (1 + n * std::abs(std::log(y + 1e-300)))) << n << " at " << y;
+        EXPECT_LE(abs(decrease.value - log(here / there)), decrease.error) << n << " at " << y;
+        EXPECT_LE(decrease.error, 1e-13 * decrease.value + kUnderflow) << n << " at " << y;
+        EXPECT_LE(slope.value, n - 1.0 + slope.error);
+      }
+    }
+  }
+}
+
 TEST(Numerics, CumulativeSums) {
   const auto logs = cumulative<Narrow>(6, [](const Narrow& k) { return log(k); });
   EXPECT_NEAR(logs[5].value, std::log(24.0), kRelative);  // log 4!
@@ -137,6 +178,15 @@ TEST(Numerics, DebyeDefectAgainstQuadrature) {
   EXPECT_NEAR(debye_1_defect(1e-8), 1e-8 / 36, kRelative * 1e-8 / 36);  // A&S 27.1.1, first term
   EXPECT_EQ(debye_1_defect(0), 0);
   EXPECT_EQ(debye_1_defect(std::numeric_limits<double>::infinity()), 0.25);
+}
+
+TEST(Numerics, InverseOfAnIncreasingFunction) {
+  const auto square = [](double x) { return x * x; };
+  EXPECT_DOUBLE_EQ(invert_increasing(square, 2, 0, 10), std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(invert_increasing(square, 1e-300, 0, 1e-100), 1e-150);
+  EXPECT_EQ(invert_increasing(square, 2, 3, 4), 3);
+  EXPECT_EQ(invert_increasing(square, 20, 3, 4), 4);
+  EXPECT_EQ(invert_increasing(square, 16, 3, 4), 4);
 }
 
 TEST(Numerics, RootsOfEulerianPolynomialsNearestZero) {
