@@ -19,7 +19,9 @@ class MovedParameter {
 
   [[nodiscard]] Digits difference(std::span<const double> u) const {
     constexpr double kStep = 0x1p-26;  // relative; the error of the difference is its square
-    const double step = kStep * std::max(std::abs(theta_[j_]), 1e-3);
+    const Interval domain = family_.parameters[j_].domain(static_cast<int>(u.size()));
+    const double room = std::min(theta_[j_] - domain.lowest, domain.highest - theta_[j_]);
+    const double step = kStep * std::min(room, std::max(std::abs(theta_[j_]), 1e-3));
     Theta low = theta_, high = theta_;
     low[j_] -= step;
     high[j_] += step;

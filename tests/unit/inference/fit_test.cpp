@@ -59,7 +59,7 @@ TEST(MaximumLikelihood, IsAtAMaximum) {
 // Over R samples, the mean of ((theta - estimate) / standard error)^2 is a chi-square of R degrees over R.
 TEST(MaximumLikelihood, StandardErrorsAreThoseOfRepeatedSamples) {
   constexpr int kSamples = 60;
-  for (const test::FamilyCase& test_case : test::family_cases_near(0.4, {2, 3})) {
+  for (const test::FamilyCase& test_case : test::family_cases_near(0.2, {2, 3})) {
     if (test_case.theta.empty()) continue;
     double sum = 0;
     for (int sample = 0; sample < kSamples; ++sample) {
@@ -115,7 +115,7 @@ TEST(MaximumLikelihood, ComonotoneDataEndAtTheBound) {
     if (family.parameters.empty()) continue;
     const FitResult result = fit_maximum_likelihood(family, u);
     EXPECT_NE(result.status, FitStatus::converged) << family.name;
-    EXPECT_GT(result.tau, 0.999) << family.name;
+    EXPECT_GT(result.tau, family.tau_range(2).highest - 0.001) << family.name;
     EXPECT_TRUE(std::isnan(result.standard_error[0])) << family.name;
   }
 }
@@ -175,8 +175,8 @@ TEST(LeastSquares, IgnoresCellsOfWeightZero) {
 
 TEST(LeastSquares, OfPointsIsNearTheirParameters) {
   // The density at the centre is not the mean over the cell: least squares is biased where the density has a peak in a
-  // corner, by 0.095 at most here (d = 3, tau = 0.5).
-  constexpr double kBias = 0.12;
+  // corner, by 0.18 at most here (Joe, d = 3, tau = 0.5).
+  constexpr double kBias = 0.2;
   for (const test::FamilyCase& test_case : test::family_cases_near(0.4, {2, 3})) {
     const Points u = simulated(test_case, 20000);
     const FitResult result = fit(*test_case.family, FitMethod::least_squares, u);
