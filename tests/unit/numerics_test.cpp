@@ -218,6 +218,14 @@ TEST(FamilyDomains, FrankByDimension) {
   EXPECT_NEAR(lowest(10), -0.002119060109, 5e-13);
 }
 
+TEST(FamilyDomains, AliMikhailHaqByDimension) {
+  const auto lowest = [](int dim) { return families::find("amh").parameters[0].domain(dim).lowest; };
+  EXPECT_EQ(lowest(2), -1);
+  EXPECT_NEAR(lowest(3), -0.26794919243, 1e-11);  // sqrt 3 - 2
+  EXPECT_NEAR(lowest(4), -0.10102051443, 1e-11);  // 2 sqrt 6 - 5
+  EXPECT_NEAR(lowest(5), -0.043096288, 1e-9);
+}
+
 TEST(FamilyDomains, ClaytonByDimension) {
   for (const int dim : {2, 3, 4, 11, 50}) {
     const double lowest = families::find("clayton").parameters[0].domain(dim).lowest;
