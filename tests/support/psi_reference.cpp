@@ -39,7 +39,7 @@ std::vector<Digits> with_digits(int digits, const Compute& compute) {
 // compute() in ever wider numbers until two widths agree, relative to the result or to `floor` if that is larger.
 template <class Compute>
 std::vector<Digits> in_two_widths(double floor, const Compute& compute) {
-  for (int digits = 100; digits <= 1600; digits *= 2) {
+  for (int digits = 100; digits <= 6400; digits *= 2) {
     const std::vector<Digits> narrow = with_digits(digits, compute);
     std::vector<Digits> wider = with_digits(digits + digits / 2, compute);
     const WorkingPrecision precision(digits);
@@ -110,14 +110,22 @@ Digits PsiReference::derivative(int order, const Digits& t) const {
   return in_support(t) ? run(order, t)[0] : Digits(0);
 }
 
-// Newton for log(-log psi) as a function of log t, nearly a straight line for most generators, inside a bracket; by
-// bisection for a while where that does not settle.
+// log|psi^(order)(t)|; a derivative of 0 inside the support has lost all its digits.
+Digits PsiReference::log_abs_derivative(int order, const Digits& t) const {
+  if (!in_support(t)) return -std::numeric_limits<Digits>::infinity();
+  const Digits value = abs(run(order, t)[0]);
+  return value > 0 ? log(value) : std::numeric_limits<Digits>::quiet_NaN();
+}
+
+// Newton for log(-log psi) as a function of log t, nearly a straight line for most generators, inside a bracket; with
+// bisection in turn where that does not settle, as next to the end of a bounded support.
 Digits PsiReference::log_inverse(const Digits& target, Digits x) const {
-  constexpr int kPatience = 40, kBisections = 60, kMaxSteps = 200;
-  // A step this small leaves an error near its square: all the digits that cancellation in psi leaves.
-  const Digits resolution = sqrt(std::numeric_limits<Digits>::epsilon());
+  constexpr int kPatience = 40;
+  const Digits epsilon = std::numeric_limits<Digits>::epsilon();
+  // A residual this small becomes its square in the next step, times at most |log psi|: all the digits there are.
+  const Digits settled = sqrt(epsilon) / 1000;
   Digits below = -1e9, above = 1e9;
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0; above - below > epsilon * (1 + abs(x)); ++step) {
     const Digits t = exp(x);
     const Digits psi = derivative(0, t);
     const bool outside = !(psi > 0 && psi < 1);  // beyond the support, or too near its ends for this width
@@ -125,8 +133,8 @@ Digits PsiReference::log_inverse(const Digits& target, Digits x) const {
     const Digits excess = outside ? Digits(psi < 1 ? 1 : -1) : Digits(log(minus_log) - target);
     (excess > 0 ? above : below) = x;
     const Digits next = outside ? x : Digits(x + excess * psi * minus_log / (t * derivative(1, t)));
-    if (!outside && abs(next - x) <= resolution * (1 + abs(x))) return next;
-    const bool newton = next > below && next < above && (step < kPatience || step >= kPatience + kBisections);
+    if (!outside && abs(excess) <= settled) return next;
+    const bool newton = next > below && next < above && (step < kPatience || step % 2 != 0);
     x = newton ? next : Digits((below + above) / 2);
   }
   return x;  // the widths will not agree
@@ -150,7 +158,7 @@ Digits PsiReference::sum_of_inverses(std::span<const double> u) const {
 }
 
 Digits PsiReference::log_abs_dpsi(int k, double t) const {
-  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(abs(derivative(k, Digits(t))))}; })[0];
+  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log_abs_derivative(k, Digits(t))}; })[0];
 }
 
 Digits PsiReference::log_density(std::span<const double> u) const {
@@ -159,9 +167,9 @@ Digits PsiReference::log_density(std::span<const double> u) const {
     for (const double value : u) {
       const Digits part = inverse(Digits(value));
       t += part;
-      weights += log(abs(derivative(1, part)));
+      weights += log_abs_derivative(1, part);
     }
-    return std::vector<Digits>{log(abs(derivative(static_cast<int>(u.size()), t))) - weights};
+    return std::vector<Digits>{log_abs_derivative(static_cast<int>(u.size()), t) - weights};
   })[0];
 }
 

@@ -52,6 +52,8 @@ class PsiReference {
   /// psi^(order)(t), 0 beyond the support.
   Digits derivative(int order, const Digits& t) const;
 
+  Digits log_abs_derivative(int order, const Digits& t) const;
+
   /// log t with log(-log psi(t)) = target, from a first guess.
   Digits log_inverse(const Digits& target, Digits guess) const;
   Digits inverse(const Digits& u) const;
