@@ -69,6 +69,41 @@ class Archimedean final : public ArchimedeanCopula {
     });
   }
 
+  BigFloat exact_row(Quantity quantity, Row u, int digits) const override {
+    const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
+    const bool conditional = quantity != Quantity::log_pdf && quantity != Quantity::log_cdf;
+    if (conditional && (u.size() == 1 || u.back() == 0 || u.back() == 1)) {
+      const WorkingPrecision precision(digits + kGuardDigits);
+      return upper ? 1 - BigFloat(u.back()) : BigFloat(u.back());
+    }
+    if (quantity == Quantity::log_cdf && std::ranges::find(u, 0.0) != u.end()) return BigFloat(-kInfinity);
+    return resolve_digits(digits, [&]() -> Widest {
+      if (quantity == Quantity::log_pdf) return log_density<Widest>(u);
+      if (quantity == Quantity::log_cdf) return log_distribution<Widest>(u);
+      const bool inverse = quantity == Quantity::h_inv || quantity == Quantity::h_inv_upper;
+      const Widest log_value =
+          inverse ? -conditional_inverse<Widest>(u.first(u.size() - 1), u.back()) : log_conditional<Widest>(u);
+      return upper ? -expm1(log_value) : exp(log_value);
+    });
+  }
+
+  BigFloat exact_log_abs_dpsi_at(int order, double t, int digits) const override {
+    return resolve_digits(digits, [&] { return generator_.log_abs_dpsi(order, Widest(t)); });
+  }
+
+  static constexpr int kGuardDigits = 20;
+
+  // kernel() in ever more digits until so many are right.
+  template <class Kernel>
+  static BigFloat resolve_digits(int digits, const Kernel& kernel) {
+    for (int working = digits + kGuardDigits; working <= digits + kLastDigits; working *= 2) {
+      const WorkingPrecision precision(working);
+      const Widest x = kernel();
+      if (isfinite(x.error) && x.error <= pow(BigFloat(10), -digits) * abs(x.value)) return x.value;
+    }
+    return std::numeric_limits<BigFloat>::quiet_NaN();
+  }
+
   // Calls answer(row) for each row without NaN; a row with NaN gives NaN.
   template <class Answer>
   static void for_each_row(const PointsRef& u, ColumnOut out, const Answer& answer) {

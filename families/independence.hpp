@@ -28,6 +28,19 @@ class Independence final : public ArchimedeanCopula {
 
   void log_abs_dpsi_into(int, const ColumnRef& t, ColumnOut out) const override { out = -t; }
 
+  BigFloat exact_row(Quantity quantity, std::span<const double> u, int digits) const override {
+    const WorkingPrecision precision(digits + 20);
+    if (quantity == Quantity::log_pdf) return 0;
+    if (quantity == Quantity::log_cdf) {
+      BigFloat sum = 0;
+      for (const double value : u) sum += log(BigFloat(value));
+      return sum;
+    }
+    const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
+    return upper ? 1 - BigFloat(u.back()) : BigFloat(u.back());
+  }
+  BigFloat exact_log_abs_dpsi_at(int, double t, int) const override { return -t; }
+
   // A NaN among the given coordinates reaches the answer.
   static void last_column(const PointsRef& u, Tail tail, ColumnOut out) {
     const auto last = u.col(u.cols() - 1);

@@ -23,18 +23,41 @@ Points points_of(std::span<Row* const> rows) {
   return points;
 }
 
+struct Options {
+  std::string path;
+  std::string output;
+  bool exact = false;
+  int digits = 50;
+};
+
+void evaluate_exactly(const Group& group, const Copula& copula, std::span<Row* const> rows, int digits) {
+  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
+  if (archimedean == nullptr) throw std::domain_error("accuracy: the copula has no generator, only standard accuracy");
+  const std::vector<BigFloat> values = group.quantity.exact(*archimedean, points_of(rows), digits);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i]->value = static_cast<double>(values[i]);
+    rows[i]->digits = to_text(values[i], digits);
+  }
+}
+
 /// All rows in one call; where that throws, one by one, so that each row has its own answer.
-void evaluate(const Group& group, const Copula& copula, std::span<Row* const> rows) {
+void evaluate(const Group& group, const Copula& copula, std::span<Row* const> rows, const Options& options) {
   try {
+    if (options.exact) return evaluate_exactly(group, copula, rows, options.digits);
     const Column values = group.quantity.evaluate(copula, points_of(rows));
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->value = values(static_cast<Index>(i));
   } catch (const std::logic_error& error) {
     if (rows.size() == 1) {
       rows.front()->failure = error.what();
     } else {
-      for (std::size_t i = 0; i < rows.size(); ++i) evaluate(group, copula, rows.subspan(i, 1));
+      for (std::size_t i = 0; i < rows.size(); ++i) evaluate(group, copula, rows.subspan(i, 1), options);
     }
   }
+}
+
+std::string text_of(const Row& row) {
+  if (!row.failure.empty()) return "error: " + row.failure;
+  return row.digits.empty() ? digits(row.value) : row.digits;
 }
 
 /// Density of the last coordinate at v, given those before it.
@@ -55,7 +78,7 @@ void judge_row(const Group& group, const Copula& copula, Row& row) {
   row.best_double = is_best_double(row.value, p, copula.h(u)(0), conditional_density(group, copula, u));
 }
 
-void answer(Group& group) {
+void answer(Group& group, const Options& options) {
   CopulaPtr copula;
   try {
     copula = group.family->make(group.quantity.dim_for(group.dim), group.theta);
@@ -63,7 +86,7 @@ void answer(Group& group) {
     for (Row* row : group.rows) row->failure = error.what();
     return;
   }
-  evaluate(group, *copula, group.rows);
+  evaluate(group, *copula, group.rows, options);
   for (Row* row : group.rows) {
     if (row->expected && row->failure.empty()) judge_row(group, *copula, *row);
   }
@@ -125,7 +148,7 @@ std::string csv_of(const Table& table, bool with_expected) {
   out += with_expected ? "value,error\n" : "value\n";
   for (const Row& row : table.rows) {
     for (const std::string& field : row.fields) out += csv_field(field) + ",";
-    out += row.failure.empty() ? digits(row.value) : in_quotes("error: " + row.failure);
+    out += row.failure.empty() ? text_of(row) : in_quotes(text_of(row));
     if (with_expected) out += ",";
     if (row.expected && row.failure.empty()) out += digits(row.verdict.error);
     out += '\n';
@@ -138,7 +161,8 @@ std::string json_of(const Table& table, const std::vector<Summary>& summaries) {
   for (const Row& row : table.rows) {
     nlohmann::ordered_json entry;
     for (std::size_t i = 0; i < row.fields.size(); ++i) entry[table.header[i]] = row.fields[i];
-    entry["value"] = row.failure.empty() ? json_number(row.value) : nlohmann::ordered_json("error: " + row.failure);
+    const bool number = row.failure.empty() && row.digits.empty();
+    entry["value"] = number ? json_number(row.value) : nlohmann::ordered_json(text_of(row));
     if (row.expected && row.failure.empty()) entry["error"] = json_number(row.verdict.error);
     document["rows"].push_back(std::move(entry));
   }
@@ -156,11 +180,11 @@ std::string json_of(const Table& table, const std::vector<Summary>& summaries) {
   return document.dump(1) + '\n';
 }
 
-void run(const std::string& path, const std::string& output, bool json) {
-  Table table = read_table(path);
-  for (auto& [key, group] : table.groups) answer(group);
+void run(const Options& options, bool json) {
+  Table table = read_table(options.path);
+  for (auto& [key, group] : table.groups) answer(group, options);
   const std::vector<Summary> summaries = summarise(table);
-  write_output(output, json ? json_of(table, summaries) : csv_of(table, table.header.size() > kExpected));
+  write_output(options.output, json ? json_of(table, summaries) : csv_of(table, table.header.size() > kExpected));
   for (const Summary& summary : summaries) std::cerr << text_of(summary) << '\n';
 }
 
@@ -170,11 +194,17 @@ void add_copula_table(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand(
       "table",
       "answer the rows of a CSV file: family,theta,quantity,d,u[,expected], several numbers with blanks between");
-  const auto path = std::make_shared<std::string>();
-  const auto output = std::make_shared<std::string>();
-  command->add_option("FILE", *path, "the rows")->required();
-  command->add_option("-o", *output, "write here, not to standard output");
-  finish_command(*command, common, [=, &common] { run(*path, *output, common.json); });
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->path, "the rows")->required();
+  const std::map<std::string, bool> levels = {{"standard", false}, {"exact", true}};
+  command->add_option("--accuracy", options->exact, "standard: doubles; exact: as many digits as asked for")
+      ->transform(CLI::CheckedTransformer(levels))
+      ->default_str("standard");
+  command->add_option("--digits", options->digits, "significant digits of --accuracy exact")
+      ->check(CLI::Range(1, ArchimedeanCopula::kMostDigits))
+      ->capture_default_str();
+  command->add_option("-o", options->output, "write here, not to standard output");
+  finish_command(*command, common, [options, &common] { run(*options, common.json); });
 }
 
 }  // namespace sklar::cli

@@ -5,14 +5,16 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
-#include "copula/copula.hpp"
+#include "copula/archimedean_copula.hpp"
 #include "examples/cli/pass_rule.hpp"
 
 namespace sklar::cli {
 
 struct Quantity {
   std::function<Column(const Copula&, const PointsRef&)> evaluate;
+  std::function<std::vector<BigFloat>(const ArchimedeanCopula&, const PointsRef&, int digits)> exact;
   Rule rule;
   std::optional<int> order = {};  ///< of a derivative of psi, whose argument is t, one number, instead of u
 

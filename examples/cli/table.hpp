@@ -21,6 +21,7 @@ struct Row {
   std::optional<Expected> expected{};  ///< where the row gives one
 
   double value = 0;
+  std::string digits{};   ///< the value, where more digits than those of a double were asked for
   std::string failure{};  ///< why there is no value
   Verdict verdict{};
   bool best_double = false;  ///< passes as the double nearest the inverse

@@ -115,6 +115,19 @@ TEST_F(CopulaTable, ComparesWithTheExpectedValue) {
   EXPECT_NE(result.err.find("in line 3\n"), std::string::npos) << result.err;
 }
 
+TEST_F(CopulaTable, GivesAsManyDigitsAsAskedFor) {
+  write("in.csv", kHeaderExpected +
+                      "independence,,log_cdf,2,0.5 0.5,-1.3862943611198906188344642429163531\n"
+                      "independence,,cdf,2,0.5 1,0.5\n"
+                      "independence,,h,2,0.5 1.25,\n");
+  const Result result = run("copula table in.csv --accuracy exact --digits 30");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find(",-1.38629436111989061883446424292e+00,"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find(",5.00000000000000000000000000000e-01,0\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\"error: "), std::string::npos) << result.out;
+  expect_usage_error("copula table in.csv --accuracy exact --digits 0");
+}
+
 TEST_F(CopulaTable, AnInadmissibleRowSaysWhyAndHarmsNoOther) {
   write("in.csv", kHeader +
                       "independence,,h,2,0.5 0.25\n"
