@@ -69,6 +69,35 @@ class Archimedean final : public ArchimedeanCopula {
     });
   }
 
+  [[nodiscard]] bool has_frailty() const override {
+    if constexpr (HasFrailty<G>) return generator_.has_frailty();
+    return false;
+  }
+
+  double log_frailty([[maybe_unused]] Rng& rng) const override {
+    if constexpr (HasFrailty<G>) return generator_.log_frailty(rng);
+    return 0;
+  }
+
+  double psi_at_log(double x) const override {
+    return resolve([&]<class T>() { return generator_.log_psi(exp(T(x))); },
+                   [](const auto& log_psi) { return accept_probability(log_psi, Tail::lower, kInverseTolerance); });
+  }
+
+  double log_radial_survival(double x) const override {
+    return resolve(
+        [&]<class T>() {
+          const T r = exp(T(x));
+          T sum = exp(generator_.log_psi(r)), log_factorial(0);
+          for (int k = 1; k < dim(); ++k) {
+            log_factorial += log(T(k));
+            sum += exp(T(k) * T(x) + generator_.log_abs_dpsi(k, r) - log_factorial);
+          }
+          return log(sum);
+        },
+        [](const auto& log_survival) { return accept_log(log_survival); });
+  }
+
   BigFloat exact_row(Quantity quantity, Row u, int digits) const override {
     const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
     const bool conditional = quantity != Quantity::log_pdf && quantity != Quantity::log_cdf;

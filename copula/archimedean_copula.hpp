@@ -11,6 +11,11 @@ namespace sklar {
 /// What may be asked for to any number of digits; see the functions of Copula of these names.
 enum class Quantity { log_pdf, log_cdf, h, h_upper, h_inv, h_inv_upper };
 
+/// How points are drawn. conditional: Copula::sample. frailty: psi(E_i / V) with exponential E_i, one frailty V a
+/// point, the fastest; positive dependence only. radial: psi(R S_i), S uniform on the simplex, any dependence (McNeil
+/// and Neslehova 2009, Theorem 2).
+enum class Route { conditional, frailty, radial };
+
 class ArchimedeanCopula : public Copula {
  public:
   /// log |psi^(k)(t)|, psi decreasing from 1 to 0. @param order k, 0 <= k <= dim(). @param t n values >= 0 (at t = 0
@@ -28,14 +33,30 @@ class ArchimedeanCopula : public Copula {
 
   static constexpr int kMostDigits = 10'000;
 
+  /// n points by a route. The routes draw different points of the same distribution. @param n >= 1.
+  /// @throws std::domain_error for the frailty route where has_frailty() is false.
+  [[nodiscard]] Points sample_by(Route route, Index n, Rng& rng) const;
+
+  /// Whether the generator knows the distribution that it is the Laplace transform of.
+  [[nodiscard]] virtual bool has_frailty() const = 0;
+
  protected:
   using Copula::Copula;
 
  private:
+  /// log V. Precondition: has_frailty().
+  [[nodiscard]] virtual double log_frailty(Rng& rng) const = 0;
+  /// psi(e^x).
+  [[nodiscard]] virtual double psi_at_log(double x) const = 0;
+  /// log P(R > e^x), P(R > r) = sum_{k<d} r^k |psi^(k)(r)| / k!.
+  [[nodiscard]] virtual double log_radial_survival(double x) const = 0;
+
   virtual void log_abs_dpsi_into(int order, const ColumnRef& t, ColumnOut out) const = 0;
   [[nodiscard]] virtual BigFloat exact_row(Quantity quantity, std::span<const double> u, int digits) const = 0;
   [[nodiscard]] virtual BigFloat exact_log_abs_dpsi_at(int order, double t, int digits) const = 0;
 
+  void frailty_point(Rng& rng, std::span<double> u) const;
+  void radial_point(Rng& rng, std::span<double> u) const;
   void require_derivative(int order, const ColumnRef& t) const;
 };
 

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <span>
 
+#include "copula/random.hpp"
 #include "copula/wide.hpp"
 
 namespace sklar {
@@ -48,6 +49,13 @@ concept HasLogConditional = requires(const G& g, std::span<const double> u) {
 template <class G>
 concept HasConditionalInverse = requires(const G& g, std::span<const double> given, double p) {
   { g.template conditional_inverse<Narrow>(given, p) } -> std::same_as<Narrow>;
+};
+
+/// Optional: log of the frailty, whose Laplace transform is psi, and whether there is one for these parameters.
+template <class G>
+concept HasFrailty = requires(const G& g, Rng& rng) {
+  { g.has_frailty() } -> std::same_as<bool>;
+  { g.log_frailty(rng) } -> std::same_as<double>;
 };
 
 }  // namespace sklar

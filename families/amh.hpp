@@ -19,6 +19,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
+#include "copula/frailty.hpp"
 #include "copula/stirling.hpp"
 #include "families/independence.hpp"
 
@@ -113,6 +114,9 @@ class AliMikhailHaq {
     const T s = solve_increasing(rate, target, target / rate(T(0)).second);
     return -log_value_at(sums, exp(-s), -expm1(-s));
   }
+
+  [[nodiscard]] bool has_frailty() const { return positive_; }
+  double log_frailty(Rng& rng) const { return frailty::log_geometric(rng, constants<Narrow>().theta.value); }
 
  private:
   template <class T>

@@ -15,6 +15,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
+#include "copula/frailty.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::clayton {
@@ -111,6 +112,9 @@ class Clayton {
     for (const double value : given) missing -= expm1(scaled<T>(value));
     return log(missing + s * exp(y)) / T(theta_);
   }
+
+  [[nodiscard]] bool has_frailty() const { return theta_ > 0; }
+  double log_frailty(Rng& rng) const { return frailty::log_gamma(rng, 1 / theta_) + std::log(theta_); }
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -18,6 +18,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
+#include "copula/frailty.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::frank {
@@ -124,6 +125,9 @@ class Frank {
     const T s = solve_increasing(rate, target, target / conditional.slope_at_0());
     return minus_log_value(exp(-s), -expm1(-s));
   }
+
+  [[nodiscard]] bool has_frailty() const { return positive_; }
+  double log_frailty(Rng& rng) const { return frailty::log_logarithmic(rng, constants<Narrow>().theta.value); }
 
  private:
   template <class T>

@@ -16,6 +16,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
+#include "copula/frailty.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::gumbel {
@@ -103,6 +104,9 @@ class Gumbel {
     const T target = -log(T(p));
     return conditional.value(solve_increasing(rate, target, target / conditional.slope_at_0()));
   }
+
+  [[nodiscard]] bool has_frailty() const { return true; }
+  double log_frailty(Rng& rng) const { return frailty::log_positive_stable(rng, 1 / theta_); }
 
  private:
   template <class T>

@@ -28,6 +28,15 @@ class Independence final : public ArchimedeanCopula {
 
   void log_abs_dpsi_into(int, const ColumnRef& t, ColumnOut out) const override { out = -t; }
 
+  [[nodiscard]] bool has_frailty() const override { return true; }
+  double log_frailty(Rng&) const override { return 0; }
+  double psi_at_log(double x) const override { return std::exp(-std::exp(x)); }
+  double log_radial_survival(double x) const override {
+    double sum = 1, term = 1;
+    for (int k = 1; k < dim(); ++k) sum += term *= std::exp(x) / k;
+    return std::log(sum) - std::exp(x);
+  }
+
   BigFloat exact_row(Quantity quantity, std::span<const double> u, int digits) const override {
     const WorkingPrecision precision(digits + 20);
     if (quantity == Quantity::log_pdf) return 0;

@@ -20,6 +20,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
+#include "copula/frailty.hpp"
 #include "copula/stirling.hpp"
 #include "families/independence.hpp"
 
@@ -108,6 +109,9 @@ class Joe {
     const T target = -log(T(p));
     return conditional.minus_log_value(solve_increasing(rate, target, target / conditional.decrease(T(0)).second));
   }
+
+  [[nodiscard]] bool has_frailty() const { return true; }
+  double log_frailty(Rng& rng) const { return frailty::log_sibuya(rng, 1 / constants<Narrow>().theta.value); }
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -1,8 +1,11 @@
 /// Draws against exact cell probabilities, and conditional draws against h.
 
 #include <array>
+#include <cstdlib>
 #include <numeric>
 
+#include "copula/archimedean_copula.hpp"
+#include "copula/inference/dependence.hpp"
 #include "tests/conformance/family_test.hpp"
 
 namespace sklar::test {
@@ -10,21 +13,17 @@ namespace {
 
 SKLAR_FAMILY_SUITE(Sampler);
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr Index kDraws = 50000;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr Index kDraws = 50000;
-#else
-constexpr Index kDraws = 1000000;
-#endif
-#else
-constexpr Index kDraws = 1000000;
-#endif
+/// 100000, or $SKLAR_DRAWS: a million take about 5 minutes.
+Index draw_count() {
+  const char* given = std::getenv("SKLAR_DRAWS");
+  return given == nullptr ? 100000 : std::atol(given);
+}
+
+const Index kDraws = draw_count();
 
 /// Number of chi-square tests in this file, all families together, for the level of each.
 int test_count() {
-  return static_cast<int>(families::all().size()) * 25;
+  return static_cast<int>(families::all().size()) * 150;
 }
 
 /// Weak, medium and strong dependence, of either sign where the family has it.
@@ -89,34 +88,110 @@ class Cells {
   int dim_;
 };
 
-TEST_P(Sampler, DrawsFollowTheCellProbabilities) {
+/// Every route that the copula has.
+std::vector<Route> routes(const Copula& copula) {
+  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
+  if (archimedean == nullptr) return {Route::conditional};
+  if (!archimedean->has_frailty()) return {Route::conditional, Route::radial};
+  return {Route::conditional, Route::frailty, Route::radial};
+}
+
+Points draw(const Copula& copula, Route route, Index n, Rng& rng) {
+  if (route == Route::conditional) return copula.sample(n, rng);
+  return dynamic_cast<const ArchimedeanCopula&>(copula).sample_by(route, n, rng);
+}
+
+Cells cells_of(int dim) {
+  if (dim == 2) {
+    return {{0, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999, 1 - 1e-4, 1},
+            2};
+  }
+  if (dim == 3) return {{0, 1e-3, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 0.999, 1}, 3};
+  return {{0, 0.01, 0.3, 0.7, 0.99, 1}, dim};
+}
+
+class Draws {
+ public:
+  explicit Draws(const FamilyCase& next) : copula_(next.copula()), name_(next.name()), cells_(cells_of(next.dim)) {
+    expected_ = cells_.probabilities(*copula_);
+    EXPECT_NEAR(std::accumulate(expected_.begin(), expected_.end(), 0.0), 1, 1e-12);
+    for (double& mass : expected_) mass = std::max(mass, 0.0) * static_cast<double>(kDraws);
+  }
+
+  void expect_distribution(Route route, Rng& rng) const {
+    SCOPED_TRACE(route == Route::conditional ? "conditional" : route == Route::frailty ? "frailty" : "radial");
+    const Points u = draw(*copula_, route, kDraws, rng);
+    std::vector<double> observed(cells_.count());
+    for (Index i = 0; i < kDraws; ++i) ++observed[cells_.index(u, i)];
+    expect_chi_square(observed, expected_, test_count(), name_);
+  }
+
+  [[nodiscard]] const Copula& copula() const { return *copula_; }
+
+ private:
+  CopulaPtr copula_;
+  std::string name_;
+  Cells cells_;
+  std::vector<double> expected_;
+};
+
+void expect_uniform(const Column& u) {
+  constexpr std::size_t kBins = 20;
+  std::vector<double> observed(kBins);
+  const std::vector<double> expected(kBins, static_cast<double>(u.size()) / kBins);
+  for (const double value : u) ++observed[std::min(static_cast<std::size_t>(value * kBins), kBins - 1)];
+  expect_chi_square(observed, expected, test_count(), "margin");
+}
+
+TEST_P(Sampler, EveryRouteFollowsTheCellProbabilities) {
+  Rng rng(seed_of_this_test());
+  for (const int dim : {2, 3, 5}) {
+    for (const FamilyCase& next : weak_medium_strong(family(), dim)) {
+      SCOPED_TRACE(next.name());
+      const Draws draws(next);
+      for (const Route route : routes(draws.copula())) draws.expect_distribution(route, rng);
+    }
+  }
+}
+
+// The support of an Archimedean copula is an upper set: a draw at its edge may be outside by rounding, no further.
+TEST_P(Sampler, NoDrawWhereTheDensityIs0) {
   Rng rng(seed_of_this_test());
   for (const int dim : {2, 3}) {
-    const Cells cells(dim == 2 ? std::vector<double>{0, 1e-4, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8,
-                                                     0.9, 0.95, 0.99, 0.999, 1 - 1e-4, 1}
-                               : std::vector<double>{0, 1e-3, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 0.999, 1},
-                      dim);
     for (const FamilyCase& next : weak_medium_strong(family(), dim)) {
       SCOPED_TRACE(next.name());
       const CopulaPtr copula = next.copula();
-      std::vector<double> expected = cells.probabilities(*copula);
-      EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0), 1, 1e-12);
-      for (double& mass : expected) mass = std::max(mass, 0.0) * static_cast<double>(kDraws);
-      std::vector<double> observed(cells.count());
-      const Points u = copula->sample(kDraws, rng);
-      for (Index i = 0; i < kDraws; ++i) ++observed[cells.index(u, i)];
-      expect_chi_square(observed, expected, test_count(), next.name());
-      // The support of an Archimedean copula is an upper set: a draw at its edge may be outside by rounding, no
-      // further.
-      const Points inside = (u.topRows(kDraws / 20) * (1 + 4e-16)).min(1 - 0x1p-53);
-      const Column log_pdf = copula->log_pdf(inside);
-      EXPECT_TRUE((log_pdf > -std::numeric_limits<double>::infinity()).all()) << "a draw where the density is 0";
+      for (const Route route : routes(*copula)) {
+        const Points u = draw(*copula, route, kDraws / 10, rng);
+        const Column log_pdf = copula->log_pdf((u * (1 + 4e-16)).min(1 - 0x1p-53));
+        EXPECT_TRUE((log_pdf > -std::numeric_limits<double>::infinity()).all()) << static_cast<int>(route);
+      }
+    }
+  }
+}
+
+// Kendall's tau of pairs and the uniformity of each coordinate, also where cells are too many to count.
+TEST_P(Sampler, RoutesHaveTheTauAndTheMargins) {
+  const Index kPoints = kDraws / 5;
+  Rng rng(seed_of_this_test());
+  for (const int dim : {2, 100}) {
+    for (const FamilyCase& next : weak_medium_strong(family(), dim)) {
+      SCOPED_TRACE(next.name());
+      const CopulaPtr copula = next.copula();
+      for (const Route route : routes(*copula)) {
+        const Index n = dim == 2 ? kPoints : kPoints / 80;
+        const Points u = draw(*copula, route, n, rng);
+        // The standard error of tau is at most sqrt(2 (1 - tau^2) / n).
+        const double error = std::sqrt(2 * (1 - next.tau() * next.tau()) / static_cast<double>(n));
+        EXPECT_NEAR(kendall_tau(u.col(0), u.col(dim - 1)), next.tau(), 4 * error) << static_cast<int>(route);
+        for (const int k : {0, dim / 2, dim - 1}) expect_uniform(u.col(k));
+      }
     }
   }
 }
 
 TEST_P(Sampler, ConditionalDrawsFollowH) {
-  constexpr Index kConditionalDraws = kDraws / 20;
+  const Index kConditionalDraws = kDraws / 4;
   constexpr Index kCells = 40;
   Rng rng(seed_of_this_test());
   for (const FamilyCase& next : weak_medium_strong(family(), 3)) {
