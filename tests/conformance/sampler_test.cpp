@@ -179,7 +179,7 @@ TEST_P(Sampler, RoutesHaveTheTauAndTheMargins) {
       SCOPED_TRACE(next.name());
       const CopulaPtr copula = next.copula();
       for (const Route route : routes(*copula)) {
-        const Index n = dim == 2 ? kPoints : kPoints / 80;
+        const Index n = dim == 2 ? kPoints : std::max(kPoints / 80, Index{250});
         const Points u = draw(*copula, route, n, rng);
         // The standard error of tau is at most sqrt(2 (1 - tau^2) / n).
         const double error = std::sqrt(2 * (1 - next.tau() * next.tau()) / static_cast<double>(n));
