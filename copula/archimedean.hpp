@@ -178,12 +178,11 @@ class Archimedean final : public ArchimedeanCopula {
   static std::optional<double> accept_probability(const Bounded<Real>& x, Tail tail, double tolerance) {
     using std::isfinite;
     const Bounded<Real> answer = tail == Tail::lower ? exp(x) : -expm1(x);
-    const auto resolution = static_cast<Real>(kResolution);
-    const Real allowed = tolerance * answer.value;
-    if (!isfinite(answer.error) || !(answer.error <= (allowed > resolution ? allowed : resolution)))
-      return std::nullopt;
-    // A subnormal double is the rounded value of a wider type.
-    if (std::is_same_v<Real, double> && answer.value < std::numeric_limits<double>::min()) return std::nullopt;
+    // Below the normal range a double is the rounded value of a wider type.
+    const bool subnormal = answer.value < std::numeric_limits<double>::min();
+    const Real allowed = subnormal ? static_cast<Real>(kResolution) : tolerance * answer.value;
+    if (!isfinite(answer.error) || !(answer.error <= allowed)) return std::nullopt;
+    if (std::is_same_v<Real, double> && subnormal) return std::nullopt;
     return static_cast<double>(answer.value);
   }
 

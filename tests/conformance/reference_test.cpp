@@ -111,6 +111,25 @@ TEST_P(TextbookPsi, ConditionalAndItsInverse) {
   for_each_case(cases({2, 3, 5}), 5, check);
 }
 
+TEST_P(TextbookPsi, SubnormalProbabilitiesAreTheNearestDoubles) {
+  for (const FamilyCase& next : cases({2, 3})) {
+    SCOPED_TRACE(next.name());
+    const CopulaPtr copula = next.copula();
+    for (const double p : {3e-309, 7e-312, 2e-320}) {
+      Points u = Points::Constant(1, next.dim, 0.3);
+      u(0, next.dim - 1) = p;
+      u(0, next.dim - 1) = copula->h_inv(u)(0);
+      if (u(0, next.dim - 1) == 0) continue;
+      const std::vector<double> row = row_of(u, 0);
+      const std::span<const double> given(row.data(), row.size() - 1);
+      if (given.size() > 1 && isinf(PsiReference(family(), next.theta).log_density(given))) continue;
+      const Digits expected = PsiReference(family(), next.theta).conditional(given, Digits(row.back())).value;
+      const double h = copula->h(u)(0);
+      EXPECT_TRUE(verdict(abs(h - expected) <= 0.51 * kSmallestDouble || expected > kSmallestNormal, h, expected));
+    }
+  }
+}
+
 TEST_P(TextbookPsi, Derivatives) {
   const WorkingPrecision precision(kDigits);
   for (const FamilyCase& next : cases({2, 5})) {
