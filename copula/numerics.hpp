@@ -1,6 +1,7 @@
 #pragma once
 /// Cancellation-free building blocks, templates over the number type T (Narrow, Extended, Widest).
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -113,17 +114,57 @@ class PerWorkingPrecision {
   mutable std::map<long, Value> values_;  // addresses stay
 };
 
+/// The nearest double, its error bound no longer that of a long computation in double.
+[[nodiscard]] inline Narrow narrowed(const Extended& x) {
+  const auto value = static_cast<double>(x.value);
+  const long double error = (std::abs(x.value - value) + x.error) * 1.000001L;
+  const bool exact = error == 0 || x.value == value;  // an infinity may be exact
+  return {value, exact && x.error == 0 ? 0.0 : std::max(static_cast<double>(error), Narrow::underflow())};
+}
+
+/// A sum whose rounding errors are carried along: its bound is that of the terms and one rounding. Widest: a plain sum.
+template <class T>
+class Total {
+ public:
+  Total& operator+=(const T& term) {
+    using Real = decltype(term.value);
+    if constexpr (std::is_floating_point_v<Real>) {
+      if (std::isfinite(term.value) && std::isfinite(term.error)) {
+        // Knuth's two-sum: high + low is exact but for the rounding of low, below eps |low| (Higham, sec. 4.3).
+        const Real sum = high_.value + term.value, moved = sum - high_.value;
+        low_ += (high_.value - (sum - moved)) + (term.value - moved);
+        high_ = {sum, high_.error + term.error + std::numeric_limits<Real>::epsilon() * std::abs(low_)};
+        return *this;
+      }
+    }
+    other_ += term;
+    return *this;
+  }
+
+  [[nodiscard]] T value() const { return high_ + T(low_, decltype(low_)(0)) + other_; }
+
+ private:
+  T high_{0};
+  decltype(T::value) low_{0};
+  T other_{0};
+};
+
 /// Coefficients c(n,k), 0 <= k < max(n,1), of a two-term recurrence; c(0,0) = c(1,0) = 1.
 /// Rule::entry<T>(n, k, same, left) gives c(n,k) from same = c(n-1,k) and left = c(n-1,k-1) (0 outside the triangle).
-/// Rows for Narrow and Extended are built at once, those for Widest on first use in a precision; safe to share between
-/// threads.
+/// Rows for Extended are built at once, those for Narrow are these rounded, those for Widest on first use in a
+/// precision; safe to share between threads.
 template <class Rule>
 class Triangle {
  public:
   Triangle(int rows, Rule rule) : rows_(rows), rule_(std::move(rule)) {
-    build(narrow_);
     build(extended_);
+    for (const std::vector<Extended>& row : extended_) {
+      std::vector<Narrow>& next = narrow_.emplace_back();
+      for (const Extended& entry : row) next.push_back(narrowed(entry));
+    }
   }
+
+  [[nodiscard]] const Rule& rule() const { return rule_; }
 
   template <class T>
   [[nodiscard]] std::span<const T> row(int n) const {
@@ -196,11 +237,16 @@ struct EulerianRule {
   }
 };
 
-/// Partial sums: entry n is the sum of term(k) for 0 < k < n, T-valued; n entries 0..count.
+/// Partial sums: entry n is the sum of term(k) for 0 < k < n, entries 0..count. @param term T -> T for any T.
 template <class T, class Term>
 [[nodiscard]] std::vector<T> cumulative(int count, const Term& term) {
   std::vector<T> sums(2, T(0));
-  for (int k = 1; k < count; ++k) sums.push_back(sums.back() + term(T(k)));
+  if constexpr (std::is_same_v<T, Narrow>) {
+    const std::vector<Extended> wide = cumulative<Extended>(count, term);
+    for (std::size_t k = 2; k < wide.size(); ++k) sums.push_back(narrowed(wide[k]));
+  } else {
+    for (int k = 1; k < count; ++k) sums.push_back(sums.back() + term(T(k)));
+  }
   return sums;
 }
 

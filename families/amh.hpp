@@ -7,10 +7,10 @@
 /// Nelsen (2006), eq. 4.2.3 and p. 172 (tau); Hofert, Maechler and McNeil (2012), JMVA 110 (derivatives).
 ///
 /// With D(u) = 1 - theta (1-u), a(u) = u / D(u) = e^(-psi^-1(u)), x = theta prod a(u_i), w = 1 - x and R_n of
-/// copula/stirling.hpp:
+/// copula/scaled_polynomials.hpp:
 ///   |psi^(n)(t)| = (1-theta) e^-t R_(n+1)(x/w) / w
 ///   log c = (d+1) log(1-theta) - 2 sum log D(u_i) - log w + log R_(d+1)(x/w)
-/// For theta > 0, w = (1-theta) (1 + theta Delta), Delta = sum of (1-u_i) / D(u_i) times the a before it, all terms
+/// For x near 1, w = (1-theta) (1 + theta Delta), Delta = sum of (1-u_i) / D(u_i) times the a before it, all terms
 /// positive. Where w is small, R_(d+1) goes like w^-d and the powers of 1 - theta cancel exactly.
 /// Given one value, h = p is a quadratic for a(v); both its root and one less the root are free of cancellation.
 
@@ -20,7 +20,7 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
-#include "copula/stirling.hpp"
+#include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::amh {
@@ -39,7 +39,7 @@ class AliMikhailHaq {
  public:
   AliMikhailHaq(int dim, double theta)
       : constants_(std::make_shared<const PerPrecision<Constants>>(theta)),
-        polynomials_(dim + 2, std::numeric_limits<double>::infinity()),
+        polynomials_(dim + 2, StirlingRule{std::numeric_limits<double>::infinity()}),
         positive_(theta > 0) {}
 
   template <class T>
@@ -68,8 +68,7 @@ class AliMikhailHaq {
     const int d = static_cast<int>(u.size());
     const auto r = polynomials_.split(d + 1, sums.x, sums.w);
     const T scalings = T(2) * sums.log_scalings;
-    if (!positive_) return T(d + 1) * c.log_rest - scalings - log1p(-sums.x) + r.log_rest;
-    const T log_stretch = log1p(c.theta * sums.delta);
+    const T log_stretch = log_stretched(sums);
     if (!r.leads) return T(d) * c.log_rest - scalings - log_stretch + r.log_rest;
     const T log_x = sums.w < T(0.5) ? log1p(-sums.w) : log(sums.x);
     return T(d) * (r.log_scale + log_x) - scalings - T(d + 1) * log_stretch + r.log_rest;
@@ -103,11 +102,9 @@ class AliMikhailHaq {
   template <class T>
   T conditional_inverse(std::span<const double> given, double p) const {
     const Accumulated<T> sums(*this, given);
-    const T &x = sums.x, &w = sums.w, upper = T(1) - T(p);
     if (given.size() == 1) {
-      // z (1 + y z) = p (1 + y)
-      const T root = sqrt(positive_ ? w * w + T(4) * x * T(p) : (T(1) + x) * (T(1) + x) - T(4) * x * upper);
-      return -log_value_at(sums, T(2) * T(p) / (w + root), T(2) * upper / (T(1) + x + root));
+      const auto [z, distance] = solve_quadratic(sums.x, sums.w, p);
+      return -log_value_at(sums, z, distance);
     }
     const auto rate = [&](const T& s) { return decrease(given.size(), sums, s, exp(-s), -expm1(-s)); };
     const T target = -log(T(p));
@@ -164,14 +161,23 @@ class AliMikhailHaq {
       }
       log_scalings += lost < T(0.5) ? log1p(-lost) : log(scalings);
       x = c.theta * product;
-      w = copula.positive_ ? c.rest * (T(1) + c.theta * delta) : T(1) - x;
+      near_one = x > T(0.5);
+      w = near_one ? c.rest * (T(1) + c.theta * delta) : T(1) - x;
     }
 
     static constexpr double kSmall = 1e-100;  // no product of two such numbers underflows
     T delta{0};                               // (1 - prod a) / (1-theta)
     T log_scalings{0};                        // sum log D(u_i)
     T x, w;
+    bool near_one;  // x is
   };
+
+  // log(w / (1-theta))
+  template <class T>
+  T log_stretched(const Accumulated<T>& sums) const {
+    const Constants<T>& c = constants<T>();
+    return sums.near_one ? log1p(c.theta * sums.delta) : log1p(-sums.x) - c.log_rest;
+  }
 
   // -log h at z with s = -log z, and its derivative in s.
   template <class T>

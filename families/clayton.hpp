@@ -20,16 +20,18 @@
 
 namespace sklar::families::clayton {
 
+/// k theta, exactly -1 where it is.
+template <class T>
+T multiple(const T& k, double theta) {
+  return std::fma(static_cast<double>(k.value), theta, 1.0) == 0 ? T(-1) : k * T(theta);
+}
+
 /// What depends on theta and the dimension alone.
 template <class T>
 struct Constants {
   Constants(int dim, double parameter)
-      : theta(parameter), log_rising(cumulative<T>(dim + 2, [&](const T& k) { return log1p(ratio(k, parameter)); })) {}
-
-  // k theta, exactly -1 where it is.
-  static T ratio(const T& k, double parameter) {
-    return std::fma(static_cast<double>(k.value), parameter, 1.0) == 0 ? T(-1) : k * T(parameter);
-  }
+      : theta(parameter),
+        log_rising(cumulative<T>(dim + 2, [&](const auto& k) { return log1p(multiple(k, parameter)); })) {}
 
   T theta;
   std::vector<T> log_rising;  // entry k: sum_{i<k} log(1 + i theta)
@@ -145,19 +147,20 @@ class Clayton {
   // k + 1/theta = (1 + k theta) / theta
   template <class T>
   T exponent(std::size_t k) const {
-    return (T(1) + Constants<T>::ratio(T(static_cast<int>(k)), theta_)) / constants<T>().theta;
+    return (T(1) + multiple(T(static_cast<int>(k)), theta_)) / constants<T>().theta;
   }
 
   // log c = sum_{k<d} log1p(k theta) - (1 + theta) sum log u_i - (d + 1/theta) log1p(s), s = S - 1; also the form for
   // theta < 0, where the density is 0 once S <= 0.
   template <class T>
   T log_density_direct(std::span<const double> u) const {
-    T s(0), logs(0);
+    Total<T> excess, sum_of_logs;
     for (const double value : u) {
       const T log_value = log(T(value));
-      s += expm1(-T(theta_) * log_value);
-      logs += log_value;
+      excess += expm1(-T(theta_) * log_value);
+      sum_of_logs += log_value;
     }
+    const T s = excess.value(), logs = sum_of_logs.value();
     if (not_positive(T(1) + s)) return T(-kInfinity);
     return constants<T>().log_rising[u.size()] - (T(1) + T(theta_)) * logs - exponent<T>(u.size()) * log1p(s);
   }
@@ -192,10 +195,10 @@ class Clayton {
            exponent<T>(u.size()) * log1p(rest);
   }
 
-  // S e^(-x_m) - 1 >= 0, theta > 0, m the smallest value (counted once); adds log(u_i / m) to log_ratios.
+  // S e^(-x_m) - 1 >= 0, theta > 0, m the smallest value (counted once); log_ratios becomes sum log(u_i / m).
   template <class T>
   T scaled_rest(std::span<const double> u, double smallest, const T& log_smallest, T& log_ratios) const {
-    T rest(0);
+    Total<T> rest, ratios;
     bool skipped = false;
     for (const double value : u) {
       if (value == smallest && !skipped) {
@@ -204,10 +207,11 @@ class Clayton {
       }
       const T log_value = log(T(value));
       const T ratio = log_ratio<T>(value, smallest, log_value, log_smallest);
-      log_ratios += ratio;
-      rest -= exp(-T(theta_) * ratio) * expm1(T(theta_) * log_value);
+      ratios += ratio;
+      rest += -(exp(-T(theta_) * ratio) * expm1(T(theta_) * log_value));
     }
-    return rest;
+    log_ratios = ratios.value();
+    return rest.value();
   }
 
   // log(1 + D/S), D = expm1(x_k) from the last value v: the growth of S by one more coordinate, theta > 0.

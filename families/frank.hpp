@@ -8,8 +8,8 @@
 /// polylogs).
 ///
 /// With q = 1 - e^-theta, a(u) = psi-weight e^(-psi^-1(u)), x = q prod a(u_i):
-///   |psi^(k)| = Li_(1-k)(x) / theta,  Li_(1-k)(x) = x A_(k-1)(x) / (1-x)^k
-///   log c = (d-1) log(theta/q) + log A_(d-1)(x) - d log(1-x) - theta sum u_i
+///   |psi^(k)| = Li_(1-k)(x) / theta,  Li_(1-k)(x) = x R_k(y) / (1-x),  y = x/(1-x), R_k of
+///   copula/scaled_polynomials.hpp log c = (d-1) log(theta/q) + log R_d(y) - log(1-x) - theta sum u_i
 /// a near 1 is carried as its complement delta = e^(-theta u)(1 - e^(-theta(1-u)))/q; 1 - x of theta > 0 relative to
 /// its largest part, (1-x) e^(theta m) = 1 + expm1(theta m)(1 - prod_{i != m} a(u_i)), m = min u: all terms positive.
 
@@ -19,36 +19,35 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
+#include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::frank {
 
-/// What depends on theta and the dimension alone.
+/// What depends on theta alone.
 template <class T>
 struct Constants {
-  Constants(int dim, double parameter)
+  explicit Constants(double parameter)
       : theta(parameter),
         q(-expm1(-theta)),
         inverse_q(T(1) / q),
         tail(exp(-theta)),
         upper_scale(expm1(theta)),
         growth(exp(theta)),
-        log_theta_by_q(log(theta / q)),
-        log_factorial(cumulative<T>(dim + 1, [](const T& k) { return log(k); })) {}
+        log_theta_by_q(log(theta / q)) {}
 
   T theta, q, inverse_q;
   T tail;         // e^-theta
   T upper_scale;  // e^theta - 1
   T growth;       // e^theta
   T log_theta_by_q;
-  std::vector<T> log_factorial;  // entry n: log (n-1)!
 };
 
 class Frank {
  public:
   Frank(int dim, double theta)
-      : constants_(std::make_shared<const PerPrecision<Constants>>(dim, theta)),
-        eulerian_(std::make_shared<const Triangle<EulerianRule>>(dim + 1, EulerianRule{})),
+      : constants_(std::make_shared<const PerPrecision<Constants>>(theta)),
+        polynomials_(dim + 1, StirlingRule{std::numeric_limits<double>::infinity()}),
         positive_(theta > 0) {}
 
   template <class T>
@@ -74,8 +73,8 @@ class Frank {
     if (k == 0) return log_psi(t);
     const Constants<T>& c = constants<T>();
     const T x = c.q * exp(-t);
-    const T log_complement = log_add_exp(log(-expm1(-t)), -c.theta - t);  // log(1 - x)
-    return -t - c.log_theta_by_q + log_eulerian(k - 1, x) - T(k) * log_complement;
+    const T complement = positive_ ? -expm1(-t) + exp(-c.theta - t) : T(1) - x;
+    return log_polynomial(k, x, complement) - t - c.log_theta_by_q - log(complement);
   }
 
   template <class T>
@@ -84,10 +83,18 @@ class Frank {
     const Product<T> product = multiply<T>(u, smallest);
     const Constants<T>& c = constants<T>();
     const int d = static_cast<int>(u.size());
-    T distance(0);  // sum (u_i - m) for theta > 0, sum u_i for theta < 0
+    const T& log_complement = product.log_complement;
+    Total<T> distance;  // sum (u_i - m) for theta > 0, sum u_i for theta < 0
     for (const double value : u) distance += positive_ ? T(value) - T(smallest) : T(value);
-    return T(d - 1) * c.log_theta_by_q + log_eulerian(d - 1, product.x) - T(d) * product.log_complement -
-           c.theta * distance;
+    const T front = T(d - 1) * c.log_theta_by_q - c.theta * distance.value();
+    if (d == 2) return front - T(2) * log_complement;  // R_2(y) = 1 / (1-x)
+    if (!positive_) return front + log_polynomial(d, product.x, T(1) - product.x) - log_complement;
+    const T shift = c.theta * T(smallest);
+    const T complement = exp(log_complement - shift);
+    const auto r = polynomials_.split(d, product.x, complement);
+    if (!r.leads) return front - T(d - 1) * shift + r.log_rest - log_complement;
+    const T log_x = complement < T(0.5) ? log1p(-complement) : log(product.x);
+    return front + T(d - 1) * (r.log_scale + log_x) + r.log_rest - T(d) * log_complement;
   }
 
   template <class T>
@@ -101,29 +108,36 @@ class Frank {
     return -minus_log_value(value, complement);
   }
 
-  // log h = log a_k + log(A_(j-1)(x a_k) / A_(j-1)(x)) - j log(1 + x delta_k / (1-x)), j values given, x of those; for
-  // theta > 0 all three are negative. j = 1, either sign: h = a(1-x)/(1-xa), 1-h = delta/(1-xa).
+  // log h = log z + log(R_j(y z) / R_j(y)), j values given, y of those, z = a_k / (1 + y delta_k); for theta > 0 both
+  // are negative. j = 1, either sign: h = z = a(1-x)/(1-xa), 1-h = delta/(1-xa).
   template <class T>
   T log_conditional(std::span<const double> u) const {
     const auto given = u.first(u.size() - 1);
     const Weight<T> last = weight<T>(u.back());
     if (given.size() == 1) return log_conditional_pair<T>(given[0], last);
-    return -Conditional<T>(*this, given).decrease(-last.log_value(), last.complement).first;
+    const Given<T> before(*this, given);
+    const T growth = before.odds * last.complement, divisor = T(1) + growth;
+    const T z = last.value / divisor, distance = (last.complement + growth) / divisor;
+    return -decrease(given.size(), before, log1p(growth) - last.log_value(), z, distance).first;
   }
 
   template <class T>
   T conditional_inverse(std::span<const double> given, double p) const {
     if (given.size() == 1) {
-      // a = p / (p + (1-p) e^(-theta u_1)), the quadratic's root in closed form.
+      // a = p / (p + (1-p) e^(-theta u_1)), a linear equation.
       const T rest = (T(1) - T(p)) * exp(-constants<T>().theta * T(given[0]));
       const T sum = T(p) + rest;
       return minus_log_value(T(p) / sum, rest / sum);
     }
-    const Conditional<T> conditional(*this, given);
-    const auto rate = [&](const T& s) { return conditional.decrease(s, -expm1(-s)); };
+    const Given<T> before(*this, given);
+    if (given.size() == 2) {
+      const auto [z, distance] = solve_quadratic(before.x, before.complement, p);
+      return minus_log_value_at(before, z, distance);
+    }
+    const auto rate = [&](const T& s) { return decrease(given.size(), before, s, exp(-s), -expm1(-s)); };
     const T target = -log(T(p));
-    const T s = solve_increasing(rate, target, target / conditional.slope_at_0());
-    return minus_log_value(exp(-s), -expm1(-s));
+    const T s = solve_increasing(rate, target, target / rate(T(0)).second);
+    return minus_log_value_at(before, exp(-s), -expm1(-s));
   }
 
   [[nodiscard]] bool has_frailty() const { return positive_; }
@@ -175,12 +189,10 @@ class Frank {
     return -log(-(x < T(0.5) ? log1p(-x) : log(c.tail + c.q * delta)) / c.theta);
   }
 
-  // log A_n(x), A_0 = A_1 = 1; the table holds A_n / n!.
+  // log R_n(x/w), w = 1 - x; R_2 = 1/w.
   template <class T>
-  T log_eulerian(int n, const T& x) const {
-    if (n < 2) return T(0);
-    return constants<T>().log_factorial[static_cast<std::size_t>(n) + 1] +
-           log(polynomial(eulerian_->template row<T>(n), x));
+  T log_polynomial(int n, const T& x, const T& w) const {
+    return n == 2 ? -log(w) : polynomials_.log_value(n, x, w);
   }
 
   template <class T>
@@ -212,48 +224,37 @@ class Frank {
     return upper < T(0.5) ? log1p(-upper) : log(a.value * rest / sum);
   }
 
-  // -log h as a function of s = -log a of the next coordinate, j >= 2 values given.
+  // x, 1 - x and x/(1-x) of the given coordinates.
   template <class T>
-  class Conditional {
-   public:
-    Conditional(const Frank& frank, std::span<const double> given)
-        : order_(static_cast<int>(given.size())), table_(frank.eulerian_->template row<T>(order_ - 1)) {
+  struct Given {
+    Given(const Frank& frank, std::span<const double> given) {
       const double smallest = *std::ranges::min_element(given);
       const Product<T> product = frank.multiply<T>(given, smallest);
-      x_ = product.x;
       const T shift = frank.positive_ ? frank.constants<T>().theta * T(smallest) : T(0);
-      odds_ = x_ * exp(shift - product.log_complement);
-      polynomial_ = polynomial(table_, x_);
+      x = product.x;
+      complement = exp(product.log_complement - shift);
+      odds = x * exp(shift - product.log_complement);
     }
 
-    /// -log h(s) and its derivative in s; delta = 1 - e^-s.
-    [[nodiscard]] std::pair<T, T> decrease(const T& s, const T& delta) const {
-      T change(0), slope(0), power(1);
-      for (int k = 1; k < static_cast<int>(table_.size()); ++k) {
-        power *= x_;
-        const T& coefficient = table_[static_cast<std::size_t>(k)];
-        change += coefficient * power * expm1(-T(k) * s);
-        slope += T(k) * coefficient * power * exp(-T(k) * s);
-      }
-      const T rest = polynomial(table_, x_ * exp(-s));  // A_(j-1)(x e^-s), by itself where little of it is left
-      const T loss = change / polynomial_;
-      const T log_left = loss > T(-0.5) ? log1p(loss) : log(rest / polynomial_);
-      const T order(order_);
-      const T value = s - log_left + order * log1p(odds_ * delta);
-      const T rate = T(1) + slope / rest + order * odds_ * (T(1) - delta) / (T(1) + odds_ * delta);
-      return {value, rate};
-    }
-
-    [[nodiscard]] T slope_at_0() const { return decrease(T(0), T(0)).second; }
-
-   private:
-    int order_;
-    std::span<const T> table_;
-    T x_, odds_, polynomial_;  // x, x/(1-x), A_(j-1)(x)/(j-1)!
+    T x, complement, odds;
   };
 
+  // -log h at z with s = -log z, and its derivative in s.
+  template <class T>
+  std::pair<T, T> decrease(std::size_t order, const Given<T>& given, const T& s, const T& z, const T& distance) const {
+    const auto [value, slope] = polynomials_.decrease(static_cast<int>(order), given.x, given.complement, z, distance);
+    return {s + value, T(1) + slope};
+  }
+
+  // -log v of the next coordinate from z and 1 - z: a(v) = z / (1 - x + x z).
+  template <class T>
+  T minus_log_value_at(const Given<T>& given, const T& z, const T& distance) const {
+    const T divisor = positive_ ? given.complement + given.x * z : T(1) - given.x * distance;
+    return minus_log_value(z / divisor, distance * given.complement / divisor);
+  }
+
   std::shared_ptr<const PerPrecision<Constants>> constants_;
-  std::shared_ptr<const Triangle<EulerianRule>> eulerian_;
+  StirlingPolynomials polynomials_;
   bool positive_;
 };
 

@@ -5,10 +5,9 @@
 ///   tau = 1 - 1/theta;  lambda_L = 0, lambda_U = 2 - 2^(1/theta)
 /// Nelsen (2006), eq. 4.2.4; Hofert, Maechler and McNeil (2012), JMVA 110 (derivatives).
 ///
-/// With s = t^(1/theta): |psi^(d)| = e^-s (s / (theta t))^d Q_d(s), Q_d(s) = sum_{k<=d} c(d,k) s^(k-d), where
-///   c(d,d) = 1, c(d+1,k) = (theta d - k) c(d,k) + c(d,k-1), theta d - k = (d-k) + d(theta-1) >= 0:
-/// all terms are positive (the usual alternating Stirling sums lose every digit for moderate d). With x_i = -log u_i:
-///   log c = (theta-1) sum log(x_i/s) + (sum x_i - s) + log Q_d(s)
+/// With s = t^(1/theta): |psi^(d)| = e^-s (s / (theta t))^d R_d(1/s), R_n with positive coefficients r(n,k), r(n,0) = 1
+/// (the usual alternating Stirling sums lose every digit for moderate d). With x_i = -log u_i:
+///   log c = (theta-1) sum log(x_i/s) + (sum x_i - s) + log R_d(1/s)
 /// s is taken relative to the largest x, so that sum x_i - s and log(x_i/s) do not cancel.
 
 #include <algorithm>
@@ -17,39 +16,31 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
+#include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::gumbel {
 
-/// b(n,k) = c(n,k+1) / (theta^(n-1) (n-1)!), 0 <= k < n: the scaled coefficients stay within the range of double
-/// longer.
+/// The coefficients of R_n: r(n+1,k) = r(n,k) + (theta n - (n+1-k)) r(n,k-1), the factor as (k-1) + n (theta-1).
 struct Rule {
   double theta;
 
+  [[nodiscard]] int exponent(int n) const { return (n < 4 ? 0 : std::ilogb(n) - 1) + std::ilogb(theta); }
+
   template <class T>
-  [[nodiscard]] T entry(int n, int k, const T& same, const T& left) const {
-    const T m(n - 1.0);
-    const T factor = T(n - 2 - k) + m * (T(theta) - T(1));  // theta (n-1) - (k+1)
-    return (factor * same + left) / (T(theta) * m);
+  [[nodiscard]] T same(int, int) const {
+    return T(1);
   }
-};
 
-/// What depends on theta and the dimension alone.
-template <class T>
-struct Constants {
-  Constants(int dim, double parameter)
-      : theta(parameter), log_scale(cumulative<T>(dim + 2, [this](const T& k) { return log(theta * k); })) {}
-
-  T theta;
-  std::vector<T> log_scale;  // entry n: log( theta^(n-1) (n-1)! )
+  template <class T>
+  [[nodiscard]] T left(int n, int k) const {
+    return T(k - 1) + T(n - 1) * (T(theta) - T(1));
+  }
 };
 
 class Gumbel {
  public:
-  Gumbel(int dim, double theta)
-      : theta_(theta),
-        constants_(std::make_shared<const PerPrecision<Constants>>(dim, theta)),
-        coefficients_(std::make_shared<const Triangle<Rule>>(dim + 2, Rule{theta})) {}
+  Gumbel(int dim, double theta) : theta_(theta), polynomials_(dim + 1, Rule{theta}) {}
 
   template <class T>
   T log_psi(const T& t) const {
@@ -67,7 +58,7 @@ class Gumbel {
     if (k == 0) return -s;
     if (t.value == 0 && t.error == 0) return T(std::numeric_limits<double>::infinity());
     if (std::isinf(static_cast<double>(t.value)) && t.error == 0) return -t;
-    return -s + T(k) * (log(s) - log(t) - log(T(theta_))) + log_q(k, s);
+    return -s + T(k) * (log(s) - log(t) - log(T(theta_))) + polynomials_.log_value(k, T(1), s);
   }
 
   template <class T>
@@ -77,7 +68,7 @@ class Gumbel {
     const int d = static_cast<int>(u.size());
     const T log_ratios = sums.log_ratios - T(d) * sums.log_stretch;
     const T gap = sums.others - sums.largest * sums.stretch;
-    return (T(theta_) - T(1)) * log_ratios + gap + log_q(d, sums.s());
+    return (T(theta_) - T(1)) * log_ratios + gap + polynomials_.log_value(d, T(1), sums.s());
   }
 
   template <class T>
@@ -147,7 +138,7 @@ class Gumbel {
     const double smallest = *std::ranges::min_element(u);
     const T log_smallest = log(T(smallest));
     const T largest = -log_smallest;
-    T others(0), log_ratios(0), powers(0);
+    Total<T> others, log_ratios, powers;
     bool skipped = false;
     for (const double value : u) {
       if (value == smallest && !skipped) {
@@ -156,13 +147,13 @@ class Gumbel {
       }
       const T log_value = log(T(value));
       const T ratio = log_of_ratio(value, smallest, log_value, log_smallest);
-      others -= log_value;
+      others += -log_value;
       log_ratios += ratio;
       powers += exp(T(theta_) * ratio);
     }
-    const T log_powers = log1p(powers);
+    const T log_powers = log1p(powers.value());
     const T log_stretch = log_powers / T(theta_);
-    return {largest, others, log_ratios, log_powers, log_stretch, expm1(log_stretch)};
+    return {largest, others.value(), log_ratios.value(), log_powers, log_stretch, expm1(log_stretch)};
   }
 
   // log(x / x_m) from u and m, by the difference of the two where they are near each other.
@@ -172,29 +163,19 @@ class Gumbel {
     return difference < T(0.5) ? log1p(-difference) : log(log_u / log_m);
   }
 
-  // log Q_n(s); terms are powers of s or of 1/s, whichever is below 1.
-  template <class T>
-  T log_q(int n, const T& s) const {
-    const auto row = coefficients_->template row<T>(n);
-    T sum = s < T(1) ? polynomial(row, s) : reversed_polynomial(row, T(1) / s);
-    const T& log_scale = constants_->template get<T>().log_scale[static_cast<std::size_t>(n)];
-    return log_scale + log(sum) - (s < T(1) ? T(n - 1) * log(s) : T(0));
-  }
-
   // -log h as a function of l = log(s_k / s_j), j values given:
-  //   s_j expm1(l) + j (theta-1) l - log( Q_j(s_j e^l) / Q_j(s_j) ), all terms positive.
+  //   s_j expm1(l) + j (theta-1) l - log( R_j(e^-l / s_j) / R_j(1 / s_j) ), all terms positive.
   template <class T>
   class Conditional {
    public:
     Conditional(const Gumbel& gumbel, std::span<const double> given)
-        : gumbel_(gumbel), order_(static_cast<int>(given.size())), row_(gumbel.coefficients_->template row<T>(order_)) {
+        : gumbel_(gumbel), order_(static_cast<int>(given.size())) {
       const Accumulated<T> sums = gumbel.accumulate<T>(given);
       smallest_ = std::ranges::min(given);
       log_smallest_ = -sums.largest;
       log_powers_ = sums.log_powers;
       s_ = sums.s();
       log_s_ = log(sums.largest) + sums.log_stretch;
-      for_each_term([&](const T& term, const T&) { sum_ += term; });
     }
 
     /// log(s_k / s_j) = log(1 + (x_k/s_j)^theta) / theta for the next coordinate v.
@@ -211,47 +192,23 @@ class Gumbel {
     }
 
     [[nodiscard]] std::pair<T, T> decrease(const T& l) const {
-      T change(0), rest(0), slope(0);  // rest: Q_j(s_j e^l), by itself where little of it is left
-      for_each_term([&](const T& term, const T& exponent) {
-        const T left = term * exp(-exponent * l);
-        change += term * expm1(-exponent * l);
-        rest += left;
-        slope += exponent * left;
-      });
-      const T loss = change / sum_;
+      const auto [value, slope] = gumbel_.polynomials_.decrease(order_, T(1), s_, exp(-l), -expm1(-l));
       const T constant = T(order_) * (T(gumbel_.theta_) - T(1));
       const T growth = expm1(l);
-      const T value = s_ * growth + constant * l - (loss > T(-0.5) ? log1p(loss) : log(rest / sum_));
-      return {value, s_ * (T(1) + growth) + constant + slope / rest};
+      return {s_ * growth + constant * l + value, s_ * (T(1) + growth) + constant + slope};
     }
 
     [[nodiscard]] T slope_at_0() const { return decrease(T(0)).second; }
 
    private:
-    // visit(term, j - k) for the terms b(j,k) s^(k-j) of Q_j(s), all divided by the larger of the first and last power.
-    template <class Visit>
-    void for_each_term(const Visit& visit) const {
-      const bool small = s_ < T(1);
-      const T step = small ? s_ : T(1) / s_;
-      const std::size_t last = row_.size() - 1;
-      T power(1);
-      for (std::size_t i = 0; i <= last; ++i) {
-        const std::size_t k = small ? i : last - i;
-        visit(row_[k] * power, T(static_cast<int>(last - k)));
-        power *= step;
-      }
-    }
-
     const Gumbel& gumbel_;
     int order_;
-    std::span<const T> row_;
     double smallest_;
-    T log_smallest_, log_powers_, s_, log_s_, sum_;
+    T log_smallest_, log_powers_, s_, log_s_;
   };
 
   double theta_;
-  std::shared_ptr<const PerPrecision<Constants>> constants_;
-  std::shared_ptr<const Triangle<Rule>> coefficients_;
+  ScaledPolynomials<Rule> polynomials_;
 };
 
 inline Gumbel generator(int dim, const Theta& theta) {

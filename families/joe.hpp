@@ -5,7 +5,8 @@
 ///   tau = 2 (theta-1)/theta sum_{n>=1} n / ((n+1)(n+2)(n + 2/theta));  lambda_L = 0, lambda_U = 2 - 2^(1/theta)
 /// Nelsen (2006), eq. 4.2.6; Hofert, Maechler and McNeil (2012), JMVA 110 (derivatives).
 ///
-/// With q_i = (1-u_i)^theta, P = prod (1 - q_i) = e^-t, w = 1 - P, a = 1/theta and R_n of copula/stirling.hpp:
+/// With q_i = (1-u_i)^theta, P = prod (1 - q_i) = e^-t, w = 1 - P, a = 1/theta and R_n of
+/// copula/scaled_polynomials.hpp:
 ///   |psi^(n)| = a w^(a-1) P R_n(P/w)
 ///   log c = (d-1) log theta + (theta-1) sum log(1-u_i) - (1-a) log w + log R_d(P/w)
 /// w is taken relative to the largest q: with m the smallest u, r = w / q_m = 1 + (1-q_m) sum_{i != m} (q_i/q_m) prod
@@ -21,7 +22,7 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
-#include "copula/stirling.hpp"
+#include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
 namespace sklar::families::joe {
@@ -41,7 +42,8 @@ struct Constants {
 class Joe {
  public:
   Joe(int dim, double theta)
-      : constants_(std::make_shared<const PerPrecision<Constants>>(theta)), polynomials_(dim + 1, theta) {}
+      : constants_(std::make_shared<const PerPrecision<Constants>>(theta)),
+        polynomials_(dim + 1, StirlingRule{theta}) {}
 
   template <class T>
   T log_psi(const T& t) const {
@@ -142,6 +144,7 @@ class Joe {
       log_largest = log1p(T(-smallest));
       const T largest = T(1) - T(smallest);
       T rest(0);
+      Total<T> upper, ratios;
       bool skipped = false;
       for (const double value : u) {
         if (value == smallest && !skipped) {
@@ -150,11 +153,13 @@ class Joe {
         }
         const T log_upper = log1p(T(-value));
         const T ratio = log_upper_ratio(value, smallest, largest, log_upper, log_largest);
-        others += log_upper;
-        log_ratios += ratio;
+        upper += log_upper;
+        ratios += ratio;
         rest += product * exp(c.theta * ratio);
         product *= Weight<T>(c.theta * log_upper).p;
       }
+      others = upper.value();
+      log_ratios = ratios.value();
       const Weight<T> first(c.theta * log_largest);
       rest *= first.p;
       product *= first.p;
@@ -162,12 +167,12 @@ class Joe {
       complement = first.q * (T(1) + rest);
     }
 
-    T log_largest;    // log(1 - u_m), u_m = min u_i
-    T others{0};      // sum over i != m of log(1 - u_i)
-    T log_ratios{0};  // sum of log((1 - u_i) / (1 - u_m))
-    T product{1};     // P
-    T complement;     // w
-    T log_stretch;    // log(w / q_m)
+    T log_largest;  // log(1 - u_m), u_m = min u_i
+    T others;       // sum over i != m of log(1 - u_i)
+    T log_ratios;   // sum of log((1 - u_i) / (1 - u_m))
+    T product{1};   // P
+    T complement;   // w
+    T log_stretch;  // log(w / q_m)
   };
 
   // log((1-u) / (1-m)), m <= u, by the difference of the two where they are near each other.

@@ -6,7 +6,7 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <vector>
 
-#include "copula/stirling.hpp"
+#include "copula/scaled_polynomials.hpp"
 #include "families/registry.hpp"
 #include "tests/support/digits.hpp"
 
@@ -120,7 +120,7 @@ TEST(Numerics, WideRowsHaveTheDigitsInForce) {
   }
 }
 
-/// c(n,k) of copula/stirling.hpp by its definition: S(n,k+1) from the alternating sum.
+/// c(n,k) of copula/scaled_polynomials.hpp by its definition: S(n,k+1) from the alternating sum.
 Digits stirling_coefficient(int n, int k, const Digits& a) {
   Digits stirling = 0, binomial = 1, factorial = 1;
   for (int i = 0; i <= k + 1; ++i) {
@@ -138,7 +138,7 @@ TEST(StirlingPolynomials, ValueAndRatio) {
   const WorkingPrecision precision(kDigits);
   for (const double theta : {1.001, 3.0, 1e4, std::numeric_limits<double>::infinity()}) {
     const Digits a = std::isinf(theta) ? Digits(0) : 1 / Digits(theta);
-    const StirlingPolynomials polynomials(50, theta);
+    const StirlingPolynomials polynomials(50, StirlingRule{theta});
     for (const int n : {1, 2, 3, 7, 50}) {
       for (const double y : {0.0, 1e-300, 1e-3, 0.3, 5.0, 1e10, 1e200}) {
         const auto exact = [&](const Digits& at) {
@@ -161,7 +161,7 @@ TEST(StirlingPolynomials, ValueAndRatio) {
 }
 
 TEST(Numerics, CumulativeSums) {
-  const auto logs = cumulative<Narrow>(6, [](const Narrow& k) { return log(k); });
+  const auto logs = cumulative<Narrow>(6, [](const auto& k) { return log(k); });
   EXPECT_NEAR(logs[5].value, std::log(24.0), kRelative);  // log 4!
   EXPECT_EQ(logs[0].value, 0);
 }
@@ -178,6 +178,29 @@ TEST(Numerics, DebyeDefectAgainstQuadrature) {
   EXPECT_NEAR(debye_1_defect(1e-8), 1e-8 / 36, kRelative * 1e-8 / 36);  // A&S 27.1.1, first term
   EXPECT_EQ(debye_1_defect(0), 0);
   EXPECT_EQ(debye_1_defect(std::numeric_limits<double>::infinity()), 0.25);
+}
+
+TEST(Numerics, TotalCarriesItsRoundingErrors) {
+  Total<Narrow> total;
+  for (const double term : {1.0, 1e16, 1.0, -1e16, 1e-9}) total += Narrow(term);
+  EXPECT_DOUBLE_EQ(total.value().value, 2 + 1e-9);
+  EXPECT_LE(total.value().error, kRelative);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  total += Narrow(-kInfinity);
+  EXPECT_EQ(total.value().value, -kInfinity);
+  EXPECT_EQ(total.value().error, 0);
+  total += Narrow(1.0, kInfinity);
+  EXPECT_FALSE(std::isfinite(total.value().error));
+}
+
+TEST(Numerics, NarrowedKeepsABound) {
+  EXPECT_EQ(narrowed(Extended(0.5)).error, 0);
+  const Narrow third = narrowed(Extended(1) / Extended(3));
+  EXPECT_EQ(third.value, 1.0 / 3);
+  EXPECT_LE(std::abs(third.value - 1.0L / 3), third.error);
+  EXPECT_LE(third.error, 1e-16);
+  EXPECT_GT(narrowed(Extended(1e-300L, 1e-4000L)).error, 0);
+  EXPECT_FALSE(std::isfinite(narrowed(Extended(1e4000L, 0)).error));
 }
 
 TEST(Numerics, InverseOfAnIncreasingFunction) {
