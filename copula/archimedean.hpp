@@ -85,17 +85,30 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   double log_radial_survival(double x) const override {
-    return resolve(
-        [&]<class T>() {
-          const T r = exp(T(x));
-          T sum = exp(generator_.log_psi(r)), log_factorial(0);
-          for (int k = 1; k < dim(); ++k) {
-            log_factorial += log(T(k));
-            sum += exp(T(k) * T(x) + generator_.log_abs_dpsi(k, r) - log_factorial);
-          }
-          return log(sum);
-        },
-        [](const auto& log_survival) { return accept_log(log_survival); });
+    return resolve([&]<class T>() { return log_survival(exp(T(x)), T(x)); },
+                   [](const auto& log_survival) { return accept_log(log_survival); });
+  }
+
+  void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const override {
+    for_each_row(PointsRef(v), out, [this, tail](Row row) {
+      if (row[0] == 0 || row[0] == 1) return tail == Tail::lower ? row[0] : 1 - row[0];
+      const auto kernel = [&]<class T>() {
+        const T r = generator_.template psi_inv<T>(row[0]);
+        return log_survival(r, log(r));
+      };
+      return resolve(kernel, [tail](const auto& log_k) { return accept_probability(log_k, tail, kHTolerance); });
+    });
+  }
+
+  // log sum_{k<d} r^k |psi^(k)(r)| / k!
+  template <class T>
+  T log_survival(const T& r, const T& log_r) const {
+    T sum = exp(generator_.log_psi(r)), log_factorial(0);
+    for (int k = 1; k < dim(); ++k) {
+      log_factorial += log(T(k));
+      sum += exp(T(k) * log_r + generator_.log_abs_dpsi(k, r) - log_factorial);
+    }
+    return log(sum);
   }
 
   BigFloat exact_row(Quantity quantity, Row u, int digits) const override {

@@ -36,6 +36,21 @@ Column ArchimedeanCopula::log_abs_dpsi(int order, const ColumnRef& t) const {
   return out;
 }
 
+Column ArchimedeanCopula::kendall(const ColumnRef& v, Tail tail) const {
+  require_unit_cube("kendall", "v", PointsRef(v));
+  Column out(v.size());
+  kendall_into(v, tail, out);
+  return out;
+}
+
+Column ArchimedeanCopula::kendall_cdf(const ColumnRef& v) const {
+  return kendall(v, Tail::lower);
+}
+
+Column ArchimedeanCopula::kendall_survival(const ColumnRef& v) const {
+  return kendall(v, Tail::upper);
+}
+
 std::vector<BigFloat> ArchimedeanCopula::exact(Quantity quantity, const PointsRef& u, int digits) const {
   require_digits(digits);
   const bool joint = quantity == Quantity::log_pdf || quantity == Quantity::log_cdf;

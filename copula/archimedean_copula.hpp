@@ -22,6 +22,12 @@ class ArchimedeanCopula : public Copula {
   /// the limit, possibly inf). @return n values. @throws std::domain_error for another order or a negative t.
   [[nodiscard]] Column log_abs_dpsi(int order, const ColumnRef& t) const;
 
+  /// Kendall distribution P(C(U) <= v) = sum_{k<d} phi(v)^k |psi^(k)(phi(v))| / k!, phi = psi^-1, and its complement
+  /// without cancellation. Genest and Rivest (2001), Statist. Probab. Lett. 53, 391. @param v n values in [0,1].
+  /// @throws std::domain_error for another v.
+  [[nodiscard]] Column kendall_cdf(const ColumnRef& v) const;
+  [[nodiscard]] Column kendall_survival(const ColumnRef& v) const;
+
   /// A quantity with so many significant decimal digits right. Doubles are taken as the exact numbers they are.
   /// @param u as for the function of that name. @param digits 1 to kMostDigits.
   /// @return n numbers of more bits than digits need; NaN for a row with NaN, and where 2240 digits more do not do (a
@@ -48,6 +54,7 @@ class ArchimedeanCopula : public Copula {
   [[nodiscard]] virtual double log_frailty(Rng& rng) const = 0;
   /// psi(e^x).
   [[nodiscard]] virtual double psi_at_log(double x) const = 0;
+  virtual void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const = 0;
   /// log P(R > e^x), P(R > r) = sum_{k<d} r^k |psi^(k)(r)| / k!.
   [[nodiscard]] virtual double log_radial_survival(double x) const = 0;
 
@@ -57,6 +64,7 @@ class ArchimedeanCopula : public Copula {
 
   void frailty_point(Rng& rng, std::span<double> u) const;
   void radial_point(Rng& rng, std::span<double> u) const;
+  [[nodiscard]] Column kendall(const ColumnRef& v, Tail tail) const;
   void require_derivative(int order, const ColumnRef& t) const;
 };
 

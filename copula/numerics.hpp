@@ -40,16 +40,14 @@ template <class T>
   return u > 0.5 * v && u < 2 * v ? log1p((T(u) - T(v)) / T(v)) : log_u - log_v;
 }
 
-/// Whether x <= 0 for sure. In Widest a value within its own error bound counts as 0: built from doubles, it would be
-/// far larger if it were not.
+/// Whether x <= 0 for sure. In Widest a value within its own error bound counts as 0 once the bound is below what
+/// powers of doubles, down to the smallest, can differ by.
 template <class T>
 [[nodiscard]] bool not_positive(const T& x) {
-  if constexpr (std::is_same_v<T, Widest>) {
-    using std::isfinite;
-    return isfinite(x.error) && x.value <= x.error;
-  } else {
-    return x.value + x.error <= 0;
-  }
+  if (x.value + x.error <= 0) return true;
+  if constexpr (std::is_same_v<T, Widest>)
+    return x.value <= x.error && x.error < BigFloat(0x1p-1000) * BigFloat(0x1p-200);
+  return false;
 }
 
 /// Horner's rule: sum_k coefficients[k] x^k.

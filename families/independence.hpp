@@ -31,6 +31,18 @@ class Independence final : public ArchimedeanCopula {
   [[nodiscard]] bool has_frailty() const override { return true; }
   double log_frailty(Rng&) const override { return 0; }
   double psi_at_log(double x) const override { return std::exp(-std::exp(x)); }
+  void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const override {
+    for (Index i = 0; i < v.size(); ++i) {
+      double sum = 0, term = v(i);  // r^k e^-r / k!, r = -log v; the complement is the rest of the series
+      const double r = -std::log(v(i));
+      for (int k = 1; k <= dim(); term *= r / k++) sum += term;
+      if (tail == Tail::upper) {
+        sum = 0;
+        for (int k = dim(); term > sum * 1e-17; term *= r / ++k) sum += term;
+      }
+      out(i) = v(i) == 0 || v(i) == 1 ? (tail == Tail::lower ? v(i) : 1 - v(i)) : sum;
+    }
+  }
   double log_radial_survival(double x) const override {
     double sum = 1, term = 1;
     for (int k = 1; k < dim(); ++k) sum += term *= std::exp(x) / k;

@@ -149,6 +149,24 @@ TEST_P(TextbookPsi, Derivatives) {
   }
 }
 
+TEST_P(TextbookPsi, KendallDistribution) {
+  const WorkingPrecision precision(kDigits);
+  for (const FamilyCase& next : cases({2, 3, 10})) {
+    SCOPED_TRACE(next.name());
+    const CopulaPtr copula = next.copula();
+    const auto& archimedean = dynamic_cast<const ArchimedeanCopula&>(*copula);
+    Column v(6);
+    v << 1e-100, 1e-12, 1e-3, 0.5, 1 - 1e-3, 1 - 1e-14;
+    const Column lower = archimedean.kendall_cdf(v), upper = archimedean.kendall_survival(v);
+    const PsiReference reference(family(), next.theta);
+    for (Index i = 0; i < v.size(); ++i) {
+      const auto expected = reference.kendall(next.dim, v(i));
+      EXPECT_TRUE(probability_agrees(lower(i), expected.value)) << v(i);
+      EXPECT_TRUE(probability_agrees(upper(i), expected.complement)) << v(i);
+    }
+  }
+}
+
 /// One row of a table: family,theta,quantity,d,u (space-separated),expected.
 struct TableRow {
   std::string text, family, quantity, expected;

@@ -198,6 +198,19 @@ Digits PsiReference::volume(std::span<const double> lower, std::span<const doubl
   })[0];
 }
 
+PsiReference::Probability PsiReference::kendall(int dim, double v) const {
+  const std::vector<Digits> result = in_two_widths(kProbability, [&] {
+    const Digits r = inverse(Digits(v));
+    Digits sum = derivative(0, r), scale = 1;
+    for (int k = 1; k < dim; ++k) {
+      scale *= r / k;
+      sum += scale * abs(derivative(k, r));
+    }
+    return std::vector<Digits>{sum, 1 - sum};
+  });
+  return {result[0], result[1]};
+}
+
 Digits PsiReference::tau_integrand(double v) const {
   return in_two_widths(kProbability, [&] {
     const Digits t = inverse(Digits(v));

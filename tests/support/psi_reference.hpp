@@ -40,6 +40,12 @@ class PsiReference {
   /// Precondition: the density of the given values is not 0.
   [[nodiscard]] Conditional conditional(std::span<const double> given, const Digits& v) const;
 
+  struct Probability {
+    Digits value, complement;
+  };
+  /// P(C(U) <= v) in dimension dim.
+  [[nodiscard]] Probability kendall(int dim, double v) const;
+
   /// psi^-1(v) psi'(psi^-1(v)); Kendall's tau is 1 + 4 times its integral over (0,1).
   [[nodiscard]] Digits tau_integrand(double v) const;
 

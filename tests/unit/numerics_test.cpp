@@ -63,7 +63,9 @@ TEST(Numerics, NotPositiveIsSure) {
   EXPECT_FALSE(not_positive(doubtful));
   EXPECT_TRUE(not_positive(Narrow(0)));
   EXPECT_FALSE(not_positive(Narrow(5e-324)));
-  EXPECT_TRUE(not_positive(Widest(BigFloat(0), BigFloat(1e-60))));
+  const WorkingPrecision precision(560);
+  EXPECT_FALSE(not_positive(Widest(BigFloat(0), BigFloat(1e-60))));
+  EXPECT_TRUE(not_positive(Widest(BigFloat(0), BigFloat(1e-300) * BigFloat(1e-100))));
   EXPECT_FALSE(not_positive(Widest(BigFloat(1e-50), BigFloat(1e-60))));
   EXPECT_FALSE(not_positive(Widest(BigFloat(-1), Widest::unknown())));
 }
