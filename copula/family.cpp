@@ -39,8 +39,11 @@ CopulaPtr FamilyInfo::make(int dim, const Theta& theta) const {
 
 Interval FamilyInfo::tau_range(int dim) const {
   const Interval domain = parameters.at(0).domain(dim);
-  return {tau({domain.lowest}), tau({domain.highest}), domain.lowest_included && std::isfinite(domain.lowest),
-          domain.highest_included && std::isfinite(domain.highest)};
+  const Interval range{tau({domain.lowest}), tau({domain.highest}),
+                       domain.lowest_included && std::isfinite(domain.lowest),
+                       domain.highest_included && std::isfinite(domain.highest)};
+  if (range.lowest <= range.highest) return range;
+  return {range.highest, range.lowest, range.highest_included, range.lowest_included};  // tau falls with the parameter
 }
 
 Theta FamilyInfo::from_tau(int dim, double value) const {

@@ -43,6 +43,7 @@ struct FamilyInfo {
   std::function<double(const Theta&)> tau;            ///< Kendall's tau of any pair
   std::function<Theta(double tau)> theta_from_tau;    ///< inverse of tau; empty unless there is exactly one parameter
   std::function<TailDependence(const Theta&)> tails;  ///< lower and upper tail dependence coefficients
+  std::string definition{};  ///< of a family given as a formula: the JSON that makes it, to be stored with a model
 
   /// @throws std::invalid_argument (number of parameters, dim < 2) or std::domain_error naming family, parameter,
   /// value, dimension and the admissible interval.

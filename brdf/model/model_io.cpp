@@ -2,7 +2,7 @@
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
-#include "copula/inference/json_fields.hpp"
+#include "copula/json_fields.hpp"
 #include "families/registry.hpp"
 
 namespace sklar::brdf {
@@ -44,6 +44,12 @@ Value choice(const Json& json, const char* name, std::initializer_list<Value> va
   throw std::invalid_argument("field '" + std::string(name) + "' must be one of " + known + ", found '" + text + "'");
 }
 
+FamilyInfo family_from(const Json& json) {
+  const Json& family = json::field(json, "family");
+  if (family.is_object()) return families::from_definition(family.dump(), "family");
+  return families::find(json::text(json, "family"));
+}
+
 StoredBrdf model_from(const Json& json) {
   json::require_format(json, kFormat, kBrdfModelVersion);
   if (json::text(json, "mode") != "paper") {
@@ -54,14 +60,13 @@ StoredBrdf model_from(const Json& json) {
     for (const Json& slice : json::array(json, kChannels[channel])) channels[channel].push_back(slice_from(slice));
   }
   const auto measure = choice(json, "measure", {CellMeasure::per_cell, CellMeasure::per_solid_angle});
-  return {
-      .material = json::text(json, "material"),
-      .provenance =
-          choice(json, "provenance",
-                 {Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown}),
-      .method =
-          choice(json, "method", {FitMethod::least_squares, FitMethod::maximum_likelihood, FitMethod::tau_inversion}),
-      .brdf = std::make_shared<PaperBrdf>(families::find(json::text(json, "family")), measure, std::move(channels))};
+  return {.material = json::text(json, "material"),
+          .provenance =
+              choice(json, "provenance",
+                     {Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown}),
+          .method = choice(json, "method",
+                           {FitMethod::least_squares, FitMethod::maximum_likelihood, FitMethod::tau_inversion}),
+          .brdf = std::make_shared<PaperBrdf>(family_from(json), measure, std::move(channels))};
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ std::string to_json(const StoredBrdf& model) {
                {"mode", "paper"},
                {"material", model.material},
                {"provenance", to_text(model.provenance)},
-               {"family", brdf.family()},
+               {"family", brdf.definition().empty() ? Json(brdf.family()) : Json::parse(brdf.definition())},
                {"method", to_text(model.method)},
                {"measure", to_text(brdf.measure())}};
   for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -24,6 +24,7 @@ inline constexpr int kBrdfModelVersion = 1;
 
 /// {"format": "sklar brdf", "version": 1, "mode": "paper", "material", "provenance", "family", "method", "measure",
 /// "red": [slices], "green", "blue"} with slices {"theta": [..], "scale", "theta_h": [masses], "theta_d", "phi_d"}.
+/// "family" is a name, or the whole definition of a family given as a formula, so that the model stands alone.
 [[nodiscard]] std::string to_json(const StoredBrdf& model);
 
 /// @param source names the text in errors. @throws FileError naming the source and the field: not JSON, not this

@@ -61,7 +61,7 @@ double cell_measure(int theta_h_bin, int theta_d_bin) {
 }
 
 PaperBrdf::PaperBrdf(const FamilyInfo& family, CellMeasure measure, std::array<std::vector<PaperSlice>, 3> channels)
-    : family_(family.name), measure_(measure), channels_(std::move(channels)) {
+    : family_(family.name), definition_(family.definition), measure_(measure), channels_(std::move(channels)) {
   const std::size_t count = channels_[0].size();
   if (count == 0 || Grid::theta_d % count != 0) {
     throw std::invalid_argument("paper model: the number of slices must divide " + std::to_string(Grid::theta_d) +

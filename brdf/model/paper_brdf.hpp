@@ -47,7 +47,8 @@ class PaperBrdf final : public Brdf {
   /// The value at half/difference coordinates, whether or not the directions there are above the horizon.
   [[nodiscard]] Rgb at(const HalfDifference& coordinates) const;
 
-  [[nodiscard]] const std::string& family() const { return family_; }
+  [[nodiscard]] const std::string& family() const { return family_; }          ///< FamilyInfo::name
+  [[nodiscard]] const std::string& definition() const { return definition_; }  ///< FamilyInfo::definition
   [[nodiscard]] CellMeasure measure() const { return measure_; }
   [[nodiscard]] int slices() const { return static_cast<int>(channels_[0].size()); }
   [[nodiscard]] const std::array<std::vector<PaperSlice>, 3>& channels() const { return channels_; }
@@ -78,7 +79,7 @@ class PaperBrdf final : public Brdf {
   [[nodiscard]] Place locate(const HalfDifference& coordinates) const;
   [[nodiscard]] static Density make_density(const FamilyInfo& family, const PaperSlice& slice);
 
-  std::string family_;
+  std::string family_, definition_;
   CellMeasure measure_;
   std::array<std::vector<PaperSlice>, 3> channels_;
   std::array<std::vector<Density>, 3> densities_;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <thread>
 
-#include "copula/inference/json_fields.hpp"
+#include "copula/json_fields.hpp"
 
 namespace sklar::brdf {
 

@@ -2,7 +2,8 @@
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
-#include "copula/inference/json_fields.hpp"
+#include "copula/json_fields.hpp"
+#include "copula/symbolic/formula_family.hpp"
 
 namespace sklar {
 namespace {
@@ -18,6 +19,11 @@ const FamilyInfo& find_family(std::string_view name, std::span<const FamilyInfo>
     known += (known.empty() ? "" : ", ") + family.name;
   }
   throw std::invalid_argument("unknown family '" + std::string(name) + "'; known families: " + known);
+}
+
+FamilyInfo family_of(const CopulaModel& model, std::span<const FamilyInfo> families) {
+  if (model.definition.empty()) return find_family(model.family, families);
+  return symbolic::make_family(symbolic::parse_definition(model.definition, "definition of the family"));
 }
 
 Json to_json_value(const HistogramMarginal& margin) {
@@ -48,11 +54,13 @@ void require_margins(const CopulaModel& model) {
 
 CopulaModel model_from(const Json& json, std::span<const FamilyInfo> families) {
   json::require_format(json, kFormat, kModelVersion);
-  CopulaModel model{.family = json::text(json, "family"),
+  const bool defined = json::field(json, "family").is_object();
+  CopulaModel model{.family = json::text(defined ? json["family"] : json, defined ? "name" : "family"),
                     .dim = json::integer(json, "dim"),
                     .theta = json::numbers(json, "theta"),
-                    .margins = {}};
-  find_family(model.family, families).require_admissible(model.dim, model.theta);
+                    .margins = {},
+                    .definition = defined ? json["family"].dump() : ""};
+  family_of(model, families).require_admissible(model.dim, model.theta);
   const Json& margins = json::array(json, "margins");
   for (std::size_t i = 0; i < margins.size(); ++i) {
     try {
@@ -68,7 +76,8 @@ CopulaModel model_from(const Json& json, std::span<const FamilyInfo> families) {
 }  // namespace
 
 std::string to_json(const CopulaModel& model) {
-  Json json = {{"format", kFormat}, {"version", kModelVersion}, {"family", model.family},
+  const Json family = model.definition.empty() ? Json(model.family) : Json::parse(model.definition);
+  Json json = {{"format", kFormat}, {"version", kModelVersion}, {"family", family},
                {"dim", model.dim},  {"theta", model.theta},     {"margins", Json::array()}};
   for (const StoredMarginal& margin : model.margins) {
     json["margins"].push_back(std::visit([](const auto& value) { return to_json_value(value); }, margin));
@@ -86,7 +95,7 @@ CopulaModel read_model(const std::filesystem::path& path, std::span<const Family
 }
 
 CopulaPtr make_copula(const CopulaModel& model, std::span<const FamilyInfo> families) {
-  return find_family(model.family, families).make(model.dim, model.theta);
+  return family_of(model, families).make(model.dim, model.theta);
 }
 
 JointDistribution make_joint(const CopulaModel& model, std::span<const FamilyInfo> families) {

@@ -16,10 +16,11 @@ namespace sklar {
 using StoredMarginal = std::variant<HistogramMarginal, EmpiricalMarginal>;
 
 struct CopulaModel {
-  std::string family;
+  std::string family;  ///< FamilyInfo::name
   int dim = 0;
   Theta theta;
   std::vector<StoredMarginal> margins;  ///< one a dimension, or none for the copula alone
+  std::string definition{};             ///< FamilyInfo::definition
 };
 
 /// The newest version written and read.
@@ -27,6 +28,7 @@ inline constexpr int kModelVersion = 1;
 
 /// {"format": "sklar copula", "version": 1, "family": .., "dim": .., "theta": [..], "margins": [..]} with margins
 /// {"kind": "histogram", "edges": [..], "masses": [..]} and {"kind": "empirical", "values": [..]}, ended by a newline.
+/// "family" is a name, or the whole definition of a family given as a formula, so that the model stands alone.
 [[nodiscard]] std::string to_json(const CopulaModel& model);
 
 /// @param source   names the text in errors. @param families those the model may use.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "copula/error.hpp"
+#include "copula/symbolic/first_answer.hpp"
 
 namespace sklar::symbolic {
 
@@ -15,8 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array kLevels{1 - 1e-6, 0.999, 0.99, 0.95, 0.8, 0.6, 0.4, 0.2, 0.05, 1e-2, 1e-4, 1e-8};
 constexpr double kUnitTolerance = 1e-14;  ///< of psi(0) = 1: constants may be given to 15 digits
 constexpr double kNearlyZero = 1e-300;    ///< a t for psi(0) where the formula has no value at 0
-constexpr double kFarLogT = 9000;         ///< log of a t for the limit where the formula has no value at infinity,
-constexpr double kLogVanishing = -20;     ///< and a log psi there that is low enough
+constexpr double kFarLogT = 9000;         ///< log t, in the range of long double, for the limit where a formula has
+constexpr double kLogVanishing = -20;     ///< no value at infinity, and a log psi there that is low enough
 constexpr double kLargestT = 1e300;       ///< of the arguments at which signs are checked
 
 class Check {
@@ -43,19 +44,10 @@ class Check {
   }
 
  private:
-  /// The first value with a small error, in wider and wider types; NaN without.
-  template <class Kernel>
-  static double resolved(const Kernel& kernel) {
-    const auto good = [](const auto& x) { return x.error <= 1e-15 || x.error <= 1e-15 * abs(x).value; };
-    if (const Narrow x = kernel.template operator()<Narrow>(); good(x)) return x.value;
-    if (const Extended x = kernel.template operator()<Extended>(); good(x)) return static_cast<double>(x.value);
-    const WorkingPrecision precision(kFirstDigits);
-    const Widest x = kernel.template operator()<Widest>();
-    return good(x) ? static_cast<double>(x.value) : std::numeric_limits<double>::quiet_NaN();
-  }
-
+  /// NaN where it is not resolved.
   [[nodiscard]] double log_psi(double t) const {
-    return resolved([this, t]<class T>() { return generator_.log_psi(T(t)); });
+    const auto value = first_answer([&]<class T>() { return if_within(1e-15, generator_.log_psi(T(t))); });
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
   /// At infinity itself, or else far beyond the range of double. log psi of a generator still falls there: twice as far
@@ -63,10 +55,14 @@ class Check {
   [[nodiscard]] bool vanishes() const {
     const Narrow limit = generator_.log_psi(Narrow(kInfinity));
     if (std::isfinite(limit.error)) return limit.value == -kInfinity;
-    const WorkingPrecision precision(kFirstDigits);
-    const Widest far = generator_.log_psi(exp(Widest(kFarLogT)));
-    const Widest half_way = generator_.log_psi(exp(Widest(kFarLogT / 2)));
-    return far.value + far.error < kLogVanishing || far.value + far.error < 1.05 * (half_way.value - half_way.error);
+    const auto falls = first_answer([this]<class T>() -> std::optional<bool> {
+      const T far = generator_.log_psi(exp(T(kFarLogT)));
+      const T half_way = generator_.log_psi(exp(T(kFarLogT / 2)));
+      using std::isfinite;
+      if (!isfinite(far.error) || !isfinite(half_way.error)) return std::nullopt;
+      return far.value + far.error < kLogVanishing || far.value + far.error < 1.05 * (half_way.value - half_way.error);
+    });
+    return falls.value_or(false);
   }
 
   [[nodiscard]] std::vector<double> arguments() const {
@@ -79,27 +75,21 @@ class Check {
     const double low = points.empty() ? 1e-6 : *least / 10;
     const double high = points.empty() ? 1e6 : std::min(*most * 100, kLargestT);
     const auto rest = kCheckedPoints - static_cast<int>(kLevels.size());
-    for (int i = 0; i < rest; ++i) points.push_back(low * std::pow(high / low, (i + 0.5) / rest));
+    const double log_low = std::log(low), log_step = (std::log(high) - log_low) / rest;
+    for (int i = 0; i < rest; ++i) points.push_back(std::exp(log_low + (i + 0.5) * log_step));
     return points;
   }
 
   void require_sign(int order, double t) const {
-    if (decided<Narrow>(order, t) || decided<Extended>(order, t)) return;
-    const WorkingPrecision precision(kFirstDigits);
-    decided<Widest>(order, t);
-  }
-
-  template <class T>
-  bool decided(int order, double t) const {
-    const auto [sign, log_abs] = generator_.signed_derivative(order, T(t));
-    if (sign == SymbolicGenerator::kUnknownSign) return false;
-    if (sign == (order % 2 == 0 ? -1 : 1)) {
-      const std::string k = std::to_string(order);
-      const double value = sign * static_cast<double>(exp(log_abs).value);
-      refuse("(-1)^" + k + " psi^(" + k + ")(t) must not be negative, found psi^(" + k + ")(" + to_text(t) +
-             ") = " + to_text(value));
-    }
-    return true;
+    const auto found = first_answer([&]<class T>() -> std::optional<double> {
+      const auto [sign, log_abs] = generator_.signed_derivative(order, T(t));
+      if (sign == SymbolicGenerator::kUnknownSign) return std::nullopt;
+      return sign * std::max(static_cast<double>(exp(log_abs).value), std::numeric_limits<double>::denorm_min());
+    });
+    if (!found || *found == 0 || (*found > 0) == (order % 2 == 0)) return;
+    const std::string k = std::to_string(order);
+    refuse("(-1)^" + k + " psi^(" + k + ")(t) must not be negative, found psi^(" + k + ")(" + to_text(t) +
+           ") = " + to_text(*found));
   }
 
   [[noreturn]] void refuse(const std::string& what) const {

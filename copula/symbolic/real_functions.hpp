@@ -160,12 +160,15 @@ Bounded<Real> tan(const Bounded<Real>& x) {
   return {v, Real(e * (1 + v * v) / denominator + 2 * std::numeric_limits<Real>::epsilon() * abs(v))};
 }
 
-/// x^y for x > 0: the logarithm is off by at most |y| |log(1 +- e_x/x)| + e_y |log x| and their product.
+/// x^y for x > 0 and for an exact 0 or infinity: the logarithm is off by at most |y| |log(1 +- e_x/x)| + e_y |log x|
+/// and their product.
 template <class Real>
 Bounded<Real> power(const Bounded<Real>& x, const Bounded<Real>& y) {
-  using std::abs, std::expm1, std::isfinite, std::log, std::pow;
+  using std::abs, std::expm1, std::isfinite, std::isinf, std::log, std::pow;
   const Real v = pow(x.value, y.value);
-  if (x.value == 0 && x.error == 0 && y.value - y.error > 0) return {Real(0), Real(0)};
+  const bool rises = y.value - y.error > 0;
+  if (x.value == 0 && x.error == 0 && rises) return {Real(0), Real(0)};
+  if (isinf(x.value) && x.value > 0 && x.error == 0 && (rises || y.value + y.error < 0)) return {v, Real(0)};
   if (!isfinite(v) || !(x.value > x.error)) return {v, Bounded<Real>::unknown()};
   Real off = 0;
   if (x.error > 0) off += (abs(y.value) + y.error) * x.error / (x.value - x.error);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "copula/error.hpp"
+#include "copula/symbolic/first_answer.hpp"
 
 namespace sklar::symbolic {
 
@@ -16,29 +17,21 @@ std::optional<bool> same(const T& a, const T& b) {
   return abs(a.value - b.value) <= 2 * (a.error + b.error);
 }
 
-/// answer<T>() of the first number type that has one, else false.
-template <class Answer>
-bool decide(const Answer& answer) {
-  if (const auto found = answer.template operator()<Narrow>()) return *found;
-  if (const auto found = answer.template operator()<Extended>()) return *found;
-  const WorkingPrecision precision(kFirstDigits);
-  return answer.template operator()<Widest>().value_or(false);
-}
-
 }  // namespace
 
-SymbolicGenerator::SymbolicGenerator(std::shared_ptr<const GeneratorFormula> formula, int dim, Theta theta)
-    : formula_(std::move(formula)), theta_(std::move(theta)) {
+SymbolicGenerator::SymbolicGenerator(std::shared_ptr<const GeneratorFormula> formula, int dim, const Theta& theta,
+                                     const std::string& subject)
+    : formula_(std::move(formula)) {
   for (int order = 0; order <= dim; ++order) derivatives_.push_back(&formula_->derivative(order));
-  prepared_ = std::make_shared<const PerPrecision<PreparedFormula>>(formula_, theta_, dim);
+  prepared_ = std::make_shared<const PerPrecision<PreparedFormula>>(formula_, theta, dim);
   choose_near_zero();
-  choose_inverse();
+  choose_inverse(subject);
 }
 
 // near_zero takes exponents for positive, and psi(0) for 1.
 void SymbolicGenerator::choose_near_zero() {
   if (formula_->log_psi_near_zero() == nullptr) return;
-  use_near_zero_ = decide([this]<class T>() { return near_zero_agrees<T>(); });
+  use_near_zero_ = first_answer([this]<class T>() { return near_zero_agrees<T>(); }).value_or(false);
 }
 
 template <class T>
@@ -53,16 +46,19 @@ std::optional<bool> SymbolicGenerator::near_zero_agrees() const {
 }
 
 // solve_for takes the positive root.
-void SymbolicGenerator::choose_inverse() {
+void SymbolicGenerator::choose_inverse(const std::string& subject) {
   if (formula_->inverse() == nullptr) return;
-  const bool is_inverse = decide([this]<class T>() { return inverse_agrees<T>(false); });
-  if (is_inverse) {
+  const auto agrees = [this](bool near_one) {
+    return first_answer([this, near_one]<class T>() { return inverse_agrees<T>(near_one); });
+  };
+  const std::optional<bool> is_inverse = agrees(false);
+  if (is_inverse == true) {
     inverse_ = Inverse::formula;
-    use_near_one_ =
-        formula_->inverse_near_one() != nullptr && decide([this]<class T>() { return inverse_agrees<T>(true); });
-  } else if (formula_->inverse_is_given()) {
+    use_near_one_ = formula_->inverse_near_one() != nullptr && agrees(true) == true;
+  } else if (is_inverse == false && formula_->inverse_is_given()) {
     const double there = exp(log_psi(inverse_at<Narrow>(0.5, false))).value;
-    throw std::domain_error("psi_inverse is not the inverse of psi: psi(psi_inverse(0.5)) = " + to_text(there));
+    throw std::domain_error(subject +
+                            ": psi_inverse is not the inverse of psi: psi(psi_inverse(0.5)) = " + to_text(there));
   }
 }
 

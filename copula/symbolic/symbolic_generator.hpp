@@ -34,9 +34,11 @@ struct PreparedFormula {
 /// Immutable; copies share what they hold. Whether psi is a generator at all: require_generator.
 class SymbolicGenerator {
  public:
-  /// @param dim 2 to kMaxDimension. @param theta one value a parameter of the formula.
+  /// @param dim highest order, 1 to kMaxDimension. @param theta one value a parameter of the formula.
+  /// @param subject opens the message, as in "bb1 (theta = 2, delta = 3)".
   /// @throws std::domain_error for a given inverse that is none.
-  SymbolicGenerator(std::shared_ptr<const GeneratorFormula> formula, int dim, Theta theta);
+  SymbolicGenerator(std::shared_ptr<const GeneratorFormula> formula, int dim, const Theta& theta,
+                    const std::string& subject = "psi");
 
   static constexpr int kUnknownSign = 2;
 
@@ -154,15 +156,13 @@ class SymbolicGenerator {
   }
 
   void choose_near_zero();
-  void choose_inverse();
+  void choose_inverse(const std::string& subject);
   template <class T>
   [[nodiscard]] std::optional<bool> near_zero_agrees() const;
   template <class T>
   [[nodiscard]] std::optional<bool> inverse_agrees(bool near_one) const;
 
   std::shared_ptr<const GeneratorFormula> formula_;
-  int dim_;
-  Theta theta_;
   std::vector<const SplitTape*> derivatives_;
   std::shared_ptr<const PerPrecision<PreparedFormula>> prepared_;
   bool use_near_zero_ = false, use_near_one_ = false;

@@ -157,7 +157,7 @@ TEST(SymbolicGenerator, AgreesWith400Digits) {
   std::mt19937_64 rng(11);
   for (const Case& next : cases()) {
     SCOPED_TRACE(next.name());
-    const SymbolicGenerator generator(formula(next.psi), next.dim, {next.theta, kDelta});
+    const SymbolicGenerator generator(formula(next.psi), next.dim, {next.theta, kDelta}, "F");
     require_generator(generator, next.dim, "test");
     const Archimedean<SymbolicGenerator> copula(next.dim, generator);
     Reference reference(next.psi, next.theta);
@@ -177,7 +177,7 @@ TEST(SymbolicGenerator, AgreesWith400Digits) {
 
 TEST(SymbolicGenerator, ASupportWithAnEndIsFoundInTheFormula) {
   const double theta = -0.25;  // psi = (1 - t/4)_+^4
-  const SymbolicGenerator generator(formula("(1+theta*t)^(-1/theta)"), 3, {theta, kDelta});
+  const SymbolicGenerator generator(formula("(1+theta*t)^(-1/theta)"), 3, {theta, kDelta}, "F");
   EXPECT_EQ(generator.log_psi(Narrow(5.0)).value, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(generator.log_abs_dpsi(2, Narrow(5.0)).value, -std::numeric_limits<double>::infinity());
   EXPECT_DOUBLE_EQ(generator.log_psi(Narrow(2.0)).value, 4 * std::log(0.5));
@@ -187,8 +187,8 @@ TEST(SymbolicGenerator, ASupportWithAnEndIsFoundInTheFormula) {
 }
 
 TEST(SymbolicGenerator, TakesAGivenInverse) {
-  const SymbolicGenerator derived(formula("1/(1+t^(1/theta))"), 2, {2.0, kDelta});
-  const SymbolicGenerator given(formula("1/(1+t^(1/theta))", "(1/u-1)^theta"), 2, {2.0, kDelta});
+  const SymbolicGenerator derived(formula("1/(1+t^(1/theta))"), 2, {2.0, kDelta}, "F");
+  const SymbolicGenerator given(formula("1/(1+t^(1/theta))", "(1/u-1)^theta"), 2, {2.0, kDelta}, "F");
   for (const double u : {1e-100, 0.25, 0.75, 1 - 1e-14}) {
     const Narrow a = derived.psi_inv<Narrow>(u), b = given.psi_inv<Narrow>(u);
     EXPECT_NEAR(a.value, b.value, a.error + b.error) << u;
@@ -208,13 +208,13 @@ std::string message_of(const Call& call) {
 
 TEST(SymbolicGenerator, RefusesAnInverseThatIsNone) {
   EXPECT_EQ(message_of([] {
-              SymbolicGenerator(formula("exp(-theta*t)", "-log(u)"), 2, {2.0, kDelta});
+              SymbolicGenerator(formula("exp(-theta*t)", "-log(u)"), 2, {2.0, kDelta}, "F");
             }),
-            "psi_inverse is not the inverse of psi: psi(psi_inverse(0.5)) = 0.25");
+            "F: psi_inverse is not the inverse of psi: psi(psi_inverse(0.5)) = 0.25");
 }
 
 std::string verdict(const std::string& psi, int dim, double theta) {
-  const SymbolicGenerator generator(formula(psi), dim, {theta, kDelta});
+  const SymbolicGenerator generator(formula(psi), dim, {theta, kDelta}, "F");
   return message_of([&] { require_generator(generator, dim, "F"); });
 }
 
@@ -244,7 +244,7 @@ TEST(RequireGenerator, DependsOnTheDimension) {
 }
 
 TEST(SymbolicGenerator, IsSharedByThreads) {
-  const SymbolicGenerator generator(formula("exp((1-sqrt(1+2*theta^2*t))/theta)"), 3, {2.0, kDelta});
+  const SymbolicGenerator generator(formula("exp((1-sqrt(1+2*theta^2*t))/theta)"), 3, {2.0, kDelta}, "F");
   const Archimedean<SymbolicGenerator> copula(3, generator);
   const Points u = Points::Constant(200, 3, 1 - 1e-14);
   const double expected = copula.log_pdf(u.topRows(1))(0);

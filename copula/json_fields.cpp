@@ -1,4 +1,4 @@
-#include "copula/inference/json_fields.hpp"
+#include "copula/json_fields.hpp"
 
 #include <algorithm>
 
