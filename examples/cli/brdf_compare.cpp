@@ -72,7 +72,8 @@ void add_brdf_compare(CLI::App& parent, Common& common) {
   const auto options = std::make_shared<Options>();
   command->add_option("MATERIAL", options->materials,
                       "material files (.binary, .bsdf); omitted: the built-in material");
-  command->add_option("--families", options->families, "names separated by commas, or all")->capture_default_str();
+  command->add_option("--families", options->families, "names or files FAMILY.json separated by commas, or all")
+      ->capture_default_str();
   command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
   add_fit_options(*command, options->fit, options->provenance);
   finish_command(*command, common, [options, &common] { run(*options, common.json); });

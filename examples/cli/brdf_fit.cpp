@@ -52,7 +52,7 @@ nlohmann::ordered_json json_fits(const brdf::PaperFit& fit) {
 }
 
 void run(const Options& options, bool json) {
-  const FamilyInfo& family = families::find(options.family);
+  const FamilyInfo& family = families::resolve(options.family);
   const auto table = load_table(options.material, options.provenance);
   const brdf::PaperFit fit = brdf::fit_paper(*table, family, options.fit, progress_bar("fitting"));
   const brdf::StoredBrdf stored{
@@ -76,7 +76,8 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("fit", "fit a model to a material");
   const auto options = std::make_shared<Options>();
   add_material(*command, options->material);
-  command->add_option("--family", options->family, "copula family")->capture_default_str();
+  command->add_option("--family", options->family, "copula family: a name or a file FAMILY.json")
+      ->capture_default_str();
   command->add_option("-o", options->output, "MODEL.json")->required();
   add_fit_options(*command, options->fit, options->provenance);
   finish_command(*command, common, [options, &common] { run(*options, common.json); });

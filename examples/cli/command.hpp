@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace sklar::cli {
 
@@ -18,6 +20,9 @@ struct Common {
 /// parser.
 void finish_command(CLI::App& command, Common& common, std::function<void()> job);
 
+/// Lets the formula of `copula derive` open with a minus.
+void protect_formula(std::vector<std::string>& arguments);
+
 void add_families(CLI::App& parent, Common& common);
 void add_brdf_albedo(CLI::App& parent, Common& common);
 void add_brdf_compare(CLI::App& parent, Common& common);
@@ -25,6 +30,7 @@ void add_brdf_convert(CLI::App& parent, Common& common);
 void add_brdf_eval(CLI::App& parent, Common& common);
 void add_brdf_fit(CLI::App& parent, Common& common);
 void add_brdf_render(CLI::App& parent, Common& common);
+void add_copula_derive(CLI::App& parent, Common& common);
 void add_copula_fit(CLI::App& parent, Common& common);
 void add_copula_sample(CLI::App& parent, Common& common);
 void add_copula_table(CLI::App& parent, Common& common);

@@ -84,7 +84,8 @@ void add_copula_fit(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("fit", "fit families to the columns of a CSV file, the best first");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->path, "a header, then one observation a line")->required();
-  command->add_option("--families", options->families, "names separated by commas, or all")->capture_default_str();
+  command->add_option("--families", options->families, "names or files FAMILY.json separated by commas, or all")
+      ->capture_default_str();
   command->add_option("--margins", options->margins, "empirical: ranks; none: the columns are in (0,1) already")
       ->check(CLI::IsMember({"empirical", "none"}))
       ->capture_default_str();

@@ -21,16 +21,15 @@ struct Options {
   std::string output;
 };
 
-std::string json_text(const Options& options, const Theta& theta, std::uint64_t seed,
+std::string json_text(const Options& options, const FamilyInfo& family, const Theta& theta, std::uint64_t seed,
                       const std::vector<std::string>& columns, const Points& u) {
-  const nlohmann::ordered_json document{{"family", options.family}, {"theta", theta},
-                                        {"dim", options.dim},       {"seed", seed},
-                                        {"columns", columns},       {"rows", json_rows(u)}};
+  const nlohmann::ordered_json document{{"family", family.name}, {"theta", theta},     {"dim", options.dim},
+                                        {"seed", seed},          {"columns", columns}, {"rows", json_rows(u)}};
   return document.dump() + '\n';
 }
 
 void run(const Options& options, const Common& common) {
-  const FamilyInfo& family = families::find(options.family);
+  const FamilyInfo& family = families::resolve(options.family);
   const Theta theta =
       options.tau ? family.from_tau(options.dim, *options.tau) : parse_numbers(options.theta, ',', "--theta");
   const CopulaPtr copula = family.make(options.dim, theta);
@@ -40,7 +39,8 @@ void run(const Options& options, const Common& common) {
   const Points u = copula->sample(options.n, rng, given);
   std::vector<std::string> columns;
   for (int k = 1; k <= options.dim; ++k) columns.push_back("u" + std::to_string(k));
-  write_output(options.output, common.json ? json_text(options, theta, common.seed, columns, u) : to_csv(columns, u));
+  write_output(options.output,
+               common.json ? json_text(options, family, theta, common.seed, columns, u) : to_csv(columns, u));
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ void run(const Options& options, const Common& common) {
 void add_copula_sample(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("sample", "draw points of a copula, leading coordinates given or not");
   const auto options = std::make_shared<Options>();
-  command->add_option("--family", options->family, "see `sklar families`")->capture_default_str();
+  command->add_option("--family", options->family, "a name of `sklar families` or a file FAMILY.json")
+      ->capture_default_str();
   auto* theta = command->add_option("--theta", options->theta, "parameters, separated by commas");
   auto* tau = command->add_option("--tau", options->tau, "Kendall's tau in place of the parameter");
   theta->excludes(tau);

@@ -83,20 +83,22 @@ std::string aligned(const std::vector<Cells>& rows) {
 struct Options {
   int dim = 2;
   bool page = false;
+  std::string families = "all";
   std::string output;
 };
 
 void run(const Options& options, bool json) {
   const int dim = options.dim;
-  if (options.page) return write_output(options.output, families_page(families::all()));
+  const std::vector<const FamilyInfo*> families = parse_families(options.families);
+  if (options.page) return write_output(options.output, families_page(families));
   if (dim < 2) throw std::invalid_argument("families: dim must be 2 or more, got " + std::to_string(dim));
   if (json) {
     nlohmann::ordered_json document{{"dim", dim}, {"families", nlohmann::ordered_json::array()}};
-    for (const FamilyInfo& family : families::all()) document["families"].push_back(json_row(family, dim));
+    for (const FamilyInfo* family : families) document["families"].push_back(json_row(*family, dim));
     return write_output(options.output, document.dump() + '\n');
   }
   std::vector<Cells> rows{{"family", "parameters, d = " + std::to_string(dim), "tau", "tails", "source"}};
-  for (const FamilyInfo& family : families::all()) rows.push_back(table_row(family, dim));
+  for (const FamilyInfo* family : families) rows.push_back(table_row(*family, dim));
   write_output(options.output, aligned(rows));
 }
 
@@ -106,6 +108,8 @@ void add_families(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("families", "list the copula families");
   const auto options = std::make_shared<Options>();
   command->add_option("--dim", options->dim, "dimension for which the domains are shown")->capture_default_str();
+  command->add_option("--families", options->families, "names or files FAMILY.json separated by commas, or all")
+      ->capture_default_str();
   command->add_flag("--page", options->page, "Markdown with formulas, as docs/families.md");
   command->add_option("-o", options->output, "write here, not to standard output");
   finish_command(*command, common, [options, &common] { run(*options, common.json); });

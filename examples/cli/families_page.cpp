@@ -71,7 +71,7 @@ std::string dependence(const FamilyInfo& family) {
 
 }  // namespace
 
-std::string families_page(std::span<const FamilyInfo> families) {
+std::string families_page(std::span<const FamilyInfo* const> families) {
   std::string text =
       "# Families\n\n"
       "C(u) = psi(psi^-1(u_1) + ... + psi^-1(u_d)) with the generators psi below: the formula that the tests hold "
@@ -79,9 +79,9 @@ std::string families_page(std::span<const FamilyInfo> families) {
       "family to, its first derivatives as the library finds them, the parameters admissible in dimension d, and\n"
       "dependence of a pair. This page is the output of\n\n"
       "```\nbuild/sklar families --page -o docs/families.md\n```\n\n";
-  for (const FamilyInfo& family : families) {
-    text += "## " + family.title + " (`" + family.name + "`)\n\n" + generator(family) + domains(family) +
-            dependence(family);
+  for (const FamilyInfo* family : families) {
+    text += "## " + family->title + " (`" + family->name + "`)\n\n" + generator(*family) + domains(*family) +
+            dependence(*family);
   }
   text.pop_back();
   return text;

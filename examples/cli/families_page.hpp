@@ -9,6 +9,6 @@
 namespace sklar::cli {
 
 /// Formulas, domains and dependence of the families as Markdown with LaTeX.
-[[nodiscard]] std::string families_page(std::span<const FamilyInfo> families);
+[[nodiscard]] std::string families_page(std::span<const FamilyInfo* const> families);
 
 }  // namespace sklar::cli

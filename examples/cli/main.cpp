@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   add_copula_table(*copula, common);
   add_copula_sample(*copula, common);
   add_copula_fit(*copula, common);
+  add_copula_derive(*copula, common);
   CLI::App* brdf = app.add_subcommand("brdf", "work on a material")->require_subcommand(1);
   add_brdf_albedo(*brdf, common);
   add_brdf_compare(*brdf, common);
@@ -41,8 +43,11 @@ int run(int argc, char** argv) {
   add_brdf_fit(*brdf, common);
   add_brdf_render(*brdf, common);
 
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  protect_formula(arguments);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(arguments));
   } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);
   }
@@ -52,9 +57,10 @@ int run(int argc, char** argv) {
   return 0;
 }
 
+/// One line, and below it only what a formula and the caret under its bad place are: lines that open with two blanks.
 int fail(int status, std::string message) {
-  for (char& c : message) {
-    if (c == '\n') c = ' ';
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    if (message[i] == '\n' && message.compare(i + 1, 2, "  ") != 0) message[i] = ' ';
   }
   std::cerr << "sklar: " << message << '\n';
   return status;

@@ -25,7 +25,7 @@ int parse_dim(const std::string& text) {
 
 /// The group that a row belongs to, without its rows. @throws std::invalid_argument for a row that has no meaning.
 Group parse_group(const std::vector<std::string>& fields) {
-  Group group{&families::find(fields[kFamily]),
+  Group group{&families::resolve(fields[kFamily]),
               parse_numbers(fields[kTheta], ' ', "theta"),
               parse_dim(fields[kDim]),
               find_quantity(fields[kQuantity]),

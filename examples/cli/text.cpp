@@ -92,7 +92,7 @@ std::vector<const FamilyInfo*> parse_families(std::string_view names) {
   if (names == "all") {
     for (const FamilyInfo& family : families::all()) chosen.push_back(&family);
   } else {
-    for (const std::string& name : split_csv(names)) chosen.push_back(&families::find(name));
+    for (const std::string& name : split_csv(names)) chosen.push_back(&families::resolve(name));
   }
   return chosen;
 }

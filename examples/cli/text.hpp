@@ -36,7 +36,8 @@ namespace sklar::cli {
 /// The field as CSV: in quotes where it holds a comma or a quote.
 [[nodiscard]] std::string csv_field(std::string_view field);
 
-/// The families of a list of names separated by commas; `all` is every one. @throws std::invalid_argument
+/// The families of a list of names and files separated by commas; `all` is every registered one. @throws as
+/// families::resolve.
 [[nodiscard]] std::vector<const FamilyInfo*> parse_families(std::string_view names);
 
 /// To standard output, or, where path is not empty, to a file, whole or not at all. @throws FileError
