@@ -18,6 +18,8 @@ struct Search {
   const Objective& objective;
   const Gradient& gradient;
   nlopt_opt optimiser;
+  double step;   ///< the first step along a slope
+  double scale;  ///< of the objective as NLopt sees it; 0 until the first slope
   Minimum result = {};
   std::exception_ptr thrown = {};
   double last = std::numeric_limits<double>::max();
@@ -31,11 +33,16 @@ struct Search {
     last = evaluation.value;
   }
 
+  /// SLSQP starts from the Hessian 1: the objective is scaled so that its first step is not longer than asked for.
   void differentiate(const std::vector<double>& z, double* slopes) {
-    for (const double slope : gradient(z)) {
+    const std::vector<double> found = gradient(z);
+    double steepest = 0;
+    for (const double slope : found) {
       if (!std::isfinite(slope)) nlopt_force_stop(optimiser);
-      *slopes++ = slope;
+      steepest = std::max(steepest, std::abs(slope));
     }
+    if (scale == 0) scale = steepest > step ? step / steepest : 1;
+    for (const double slope : found) *slopes++ = scale * slope;
   }
 };
 
@@ -49,7 +56,7 @@ double callback(unsigned n, const double* z, double* slopes, void* data) noexcep
     search.thrown = std::current_exception();
     nlopt_force_stop(search.optimiser);
   }
-  return search.last;
+  return search.scale * search.last;
 }
 
 MinimiseStop stop_reason(nlopt_result code) {
@@ -65,7 +72,11 @@ Minimum minimise(const Objective& objective, const std::vector<double>& start, c
   const auto n = static_cast<unsigned>(start.size());
   const nlopt_algorithm algorithm = gradient ? NLOPT_LD_SLSQP : NLOPT_LN_BOBYQA;
   Optimiser optimiser(n > 0 ? nlopt_create(algorithm, n) : nullptr, &nlopt_destroy);
-  Search search{.objective = objective, .gradient = gradient, .optimiser = optimiser.get()};
+  Search search{.objective = objective,
+                .gradient = gradient,
+                .optimiser = optimiser.get(),
+                .step = options.step,
+                .scale = gradient ? 0.0 : 1.0};
   if (n == 0) {
     search.evaluate(start);
     return search.result;
