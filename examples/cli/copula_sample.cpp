@@ -1,7 +1,9 @@
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "copula/archimedean_copula.hpp"
 #include "copula/inference/csv.hpp"
 #include "copula/random.hpp"
 #include "examples/cli/command.hpp"
@@ -18,6 +20,7 @@ struct Options {
   int dim = 2;
   long long n = 0;
   std::string given;
+  Route route = Route::conditional;
   std::string output;
 };
 
@@ -28,6 +31,13 @@ std::string json_text(const Options& options, const FamilyInfo& family, const Th
   return document.dump() + '\n';
 }
 
+Points sample_by(const Options& options, const Copula& copula, const Points& given, Rng& rng) {
+  if (given.cols() > 0) throw std::invalid_argument("--given needs the conditional route");
+  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
+  if (archimedean == nullptr) throw std::domain_error("--route: the copula has no generator");
+  return archimedean->sample_by(options.route, options.n, rng);
+}
+
 void run(const Options& options, const Common& common) {
   const FamilyInfo& family = families::resolve(options.family);
   const Theta theta =
@@ -36,7 +46,8 @@ void run(const Options& options, const Common& common) {
   const std::vector<double> values = parse_numbers(options.given, ',', "--given");
   const Points given = Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Index>(values.size())).transpose();
   Rng rng(common.seed);
-  const Points u = copula->sample(options.n, rng, given);
+  const Points u = options.route == Route::conditional ? copula->sample(options.n, rng, given)
+                                                       : sample_by(options, *copula, given, rng);
   std::vector<std::string> columns;
   for (int k = 1; k <= options.dim; ++k) columns.push_back("u" + std::to_string(k));
   write_output(options.output,
@@ -56,6 +67,11 @@ void add_copula_sample(CLI::App& parent, Common& common) {
   command->add_option("--dim", options->dim, "dimension")->capture_default_str();
   command->add_option("-n", options->n, "number of points")->required();
   command->add_option("--given", options->given, "leading coordinates in [0,1], separated by commas");
+  const std::map<std::string, Route> routes = {
+      {"conditional", Route::conditional}, {"frailty", Route::frailty}, {"radial", Route::radial}};
+  command->add_option("--route", options->route, "how: by inverse conditionals, a frailty, or the radial part")
+      ->transform(CLI::CheckedTransformer(routes))
+      ->default_str("conditional");
   command->add_option("-o", options->output, "write here, not to standard output");
   finish_command(*command, common, [options, &common] { run(*options, common); });
 }

@@ -75,6 +75,18 @@ TEST_F(CopulaSample, RefusesAnOutputThatCannotBeWritten) {
   expect_refused("copula sample --family independence -n 1 -o /dev/full", "/dev/full: cannot be written");
 }
 
+TEST_F(CopulaSample, TakesARoute) {
+  for (const std::string route : {"conditional", "frailty", "radial"}) {
+    const Result result = run("copula sample --theta 5 --dim 3 -n 4 --route " + route);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 5) << result.out;
+  }
+  EXPECT_NE(run("copula sample --theta 5 -n 4 --route frailty").out, run("copula sample --theta 5 -n 4").out);
+  expect_refused("copula sample --theta -5 -n 4 --route frailty", "this copula has no frailty");
+  expect_refused("copula sample --theta 5 -n 4 --route radial --given 0.5", "--given needs the conditional route");
+  expect_usage_error("copula sample --theta 5 -n 4 --route other");
+}
+
 TEST_F(CopulaTable, AnswersInTheOrderOfTheFile) {
   write("in.csv", kHeader +
                       "independence,,h,2,0.5 0.25\r\n"
