@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -41,13 +42,23 @@ std::string tau_text(const FamilyInfo& family, int dim) {
   return family.parameters.size() == 1 ? family.tau_range(dim).to_text() : "";
 }
 
+/// The range of tau to a few digits, for people.
+std::string short_tau_text(const FamilyInfo& family, int dim) {
+  if (family.parameters.size() != 1) return tau_text(family, dim);
+  const auto rounded = [](double tau) { return std::round(tau * 1e6) / 1e6; };
+  Interval range = family.tau_range(dim);
+  range.lowest = rounded(range.lowest);
+  range.highest = rounded(range.highest);
+  return range.to_text();
+}
+
 Cells table_row(const FamilyInfo& family, int dim) {
   std::string parameters;
   for (const ParameterInfo& parameter : family.parameters) {
     if (!parameters.empty()) parameters += "; ";
     parameters += parameter.name + " in " + parameter.domain(dim).to_text();
   }
-  return {family.name, parameters.empty() ? "none" : parameters, tau_text(family, dim),
+  return {family.name, parameters.empty() ? "none" : parameters, short_tau_text(family, dim),
           tails_text(strongest_tails(family, dim)), family.source};
 }
 
