@@ -14,6 +14,7 @@
 #include "copula/archimedean_copula.hpp"
 #include "copula/generator.hpp"
 #include "copula/generic_route.hpp"
+#include "copula/row.hpp"
 
 namespace sklar {
 
@@ -28,43 +29,67 @@ class Archimedean final : public ArchimedeanCopula {
   Archimedean(int dim, G generator) : ArchimedeanCopula(dim), generator_(std::move(generator)) {}
 
  private:
-  using Row = std::span<const double>;
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  void log_pdf_into(const PointsRef& u, ColumnOut out) const override {
-    for_each_row(u, out, [this](Row row) {
-      return resolve([&]<class T>() { return log_density<T>(row); }, [](const auto& x) { return accept_log(x); });
+  void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
+    for_each_row(u, reflection, out, [this](const Row& row) {
+      if (row.u.size() == 1) return 0.0;
+      return resolve([&]<class T>() { return log_density(RowOf<T>(row).all()); },
+                     [](const auto& x) { return accept_log(x); });
     });
   }
 
-  void log_cdf_into(const PointsRef& u, ColumnOut out) const override {
-    for_each_row(u, out, [this](Row row) {
-      if (std::ranges::find(row, 0.0) != row.end()) return -kInfinity;
-      return resolve([&]<class T>() { return log_distribution<T>(row); }, [](const auto& x) { return accept_log(x); });
+  void log_cdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
+    require_few(reflection);
+    for_each_row(u, reflection, out, [this](const Row& row) {
+      if (std::ranges::find(row.u, 0.0) != row.u.end()) return -kInfinity;
+      return resolve(
+          [&]<class T>() {
+            return row.reflection == nullptr ? log_distribution(RowOf<T>(row).all()) : log_box<T>(row);
+          },
+          [](const auto& x) { return accept_log(x); });
     });
   }
 
-  void conditional_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
-    for_each_row(u, out, [this, tail](Row row) {
-      const double last = row.back();
-      if (row.size() == 1 || last == 0 || last == 1) return tail == Tail::lower ? last : 1 - last;
-      return resolve([&]<class T>() { return log_conditional<T>(row); },
-                     [tail](const auto& log_h) { return accept_probability(log_h, tail, kHTolerance); });
+  void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const override {
+    for_each_row(u, reflection, out, [this, tail](const Row& row) {
+      if (const auto value = last_itself(row, tail)) return *value;
+      return resolve(
+          [&]<class T>() { return log_conditional(RowOf<T>(row).all()); },
+          [side = side(row, tail)](const auto& log_h) { return accept_probability(log_h, side, kHTolerance); });
     });
   }
 
-  void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
-    for_each_row(u, out, [this, tail](Row row) {
-      const double p = row.back();
-      if (row.size() == 1 || p == 0 || p == 1) return tail == Tail::lower ? p : 1 - p;
-      return resolve([&]<class T>() { return -conditional_inverse<T>(row.first(row.size() - 1), p); },
-                     [tail](const auto& log_v) { return accept_probability(log_v, tail, kInverseTolerance); });
+  void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
+                                ColumnOut out) const override {
+    for_each_row(u, reflection, out, [this, tail](const Row& row) {
+      if (const auto value = last_itself(row, tail)) return *value;
+      const auto kernel = [&]<class T>() {
+        const RowOf<T> in_type(row);
+        return -conditional_inverse(in_type.given(), in_type.last());
+      };
+      return resolve(kernel, [side = side(row, tail)](const auto& log_v) {
+        return accept_probability(log_v, side, kInverseTolerance);
+      });
     });
+  }
+
+  // h and its inverse where they are the last entry.
+  static std::optional<double> last_itself(const Row& row, Tail tail) {
+    const double last = row.u.back();
+    if (row.u.size() > 1 && last != 0 && last != 1) return std::nullopt;
+    return tail == Tail::lower ? last : 1 - last;
+  }
+
+  // P(1 - V <= u) = P(V >= 1 - u): with the last coordinate reflected the tails change places.
+  static Tail side(const Row& row, Tail tail) {
+    const bool lower = (tail == Tail::lower) != row.is_reflected(row.u.size() - 1);
+    return lower ? Tail::lower : Tail::upper;
   }
 
   void log_abs_dpsi_into(int order, const ColumnRef& t, ColumnOut out) const override {
-    for_each_row(PointsRef(t), out, [this, order](Row row) {
-      return resolve([&]<class T>() { return generator_.log_abs_dpsi(order, T(row[0])); },
+    for_each_row(PointsRef(t), {}, out, [this, order](const Row& row) {
+      return resolve([&]<class T>() { return generator_.log_abs_dpsi(order, T(row.u[0])); },
                      [](const auto& x) { return accept_log(x); });
     });
   }
@@ -90,10 +115,11 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const override {
-    for_each_row(PointsRef(v), out, [this, tail](Row row) {
-      if (row[0] == 0 || row[0] == 1) return tail == Tail::lower ? row[0] : 1 - row[0];
+    for_each_row(PointsRef(v), {}, out, [this, tail](const Row& row) {
+      const double level = row.u[0];
+      if (level == 0 || level == 1) return tail == Tail::lower ? level : 1 - level;
       const auto kernel = [&]<class T>() {
-        const T r = generator_.template psi_inv<T>(row[0]);
+        const T r = generator_.psi_inv(T(level));
         return log_survival(r, log(r));
       };
       return resolve(kernel, [tail](const auto& log_k) { return accept_probability(log_k, tail, kHTolerance); });
@@ -111,7 +137,7 @@ class Archimedean final : public ArchimedeanCopula {
     return log(sum);
   }
 
-  BigFloat exact_row(Quantity quantity, Row u, int digits) const override {
+  BigFloat exact_row(Quantity quantity, std::span<const double> u, int digits) const override {
     const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
     const bool conditional = quantity != Quantity::log_pdf && quantity != Quantity::log_cdf;
     if (conditional && (u.size() == 1 || u.back() == 0 || u.back() == 1)) {
@@ -120,11 +146,11 @@ class Archimedean final : public ArchimedeanCopula {
     }
     if (quantity == Quantity::log_cdf && std::ranges::find(u, 0.0) != u.end()) return BigFloat(-kInfinity);
     return resolve_digits(digits, [&]() -> Widest {
-      if (quantity == Quantity::log_pdf) return log_density<Widest>(u);
-      if (quantity == Quantity::log_cdf) return log_distribution<Widest>(u);
+      const RowOf<Widest> row(Row{u});
+      if (quantity == Quantity::log_pdf) return log_density(row.all());
+      if (quantity == Quantity::log_cdf) return log_distribution(row.all());
       const bool inverse = quantity == Quantity::h_inv || quantity == Quantity::h_inv_upper;
-      const Widest log_value =
-          inverse ? -conditional_inverse<Widest>(u.first(u.size() - 1), u.back()) : log_conditional<Widest>(u);
+      const Widest log_value = inverse ? -conditional_inverse(row.given(), row.last()) : log_conditional(row.all());
       return upper ? -expm1(log_value) : exp(log_value);
     });
   }
@@ -148,19 +174,20 @@ class Archimedean final : public ArchimedeanCopula {
 
   // Calls answer(row) for each row without NaN; a row with NaN gives NaN.
   template <class Answer>
-  static void for_each_row(const PointsRef& u, ColumnOut out, const Answer& answer) {
+  static void for_each_row(const PointsRef& u, const Reflection& reflection, ColumnOut out, const Answer& answer) {
     constexpr std::size_t kOnStack = 16;
     const auto columns = static_cast<std::size_t>(u.cols());
     std::array<double, kOnStack> small;
     std::vector<double> large(columns > kOnStack ? columns : 0);
     const std::span<double> row(columns > kOnStack ? large.data() : small.data(), columns);
+    const Reflection* reflected = reflection.none() ? nullptr : &reflection;
     for (Index i = 0; i < u.rows(); ++i) {
       bool missing = false;
       for (Index k = 0; k < u.cols(); ++k) {
         row[static_cast<std::size_t>(k)] = u(i, k);
         missing = missing || std::isnan(u(i, k));
       }
-      out(i) = missing ? std::numeric_limits<double>::quiet_NaN() : answer(Row(row));
+      out(i) = missing ? std::numeric_limits<double>::quiet_NaN() : answer(Row{row, reflected});
     }
   }
 
@@ -200,38 +227,60 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   template <class T>
-  T log_density(Row u) const {
+  T log_density(std::span<const T> u) const {
     if constexpr (HasLogDensity<G>) {
-      return generator_.template log_density<T>(u);
+      return generator_.log_density(u);
     } else {
-      return generic_log_density<T>(generator_, u);
+      return generic_log_density(generator_, u);
     }
   }
 
   template <class T>
-  T log_distribution(Row u) const {
+  T log_distribution(std::span<const T> u) const {
     if constexpr (HasLogCdf<G>) {
-      return generator_.template log_cdf<T>(u);
+      return generator_.log_cdf(u);
     } else {
-      return generator_.log_psi(generic_sum<T>(generator_, u));
+      return generator_.log_psi(generic_sum(generator_, u));
     }
   }
 
+  // log P(V_i <= u_i, of the reflected i V_i >= 1 - u_i), by inclusion and exclusion over these.
   template <class T>
-  T log_conditional(Row u) const {
+  T log_box(const Row& row) const {
+    const RowOf<T> in_type(row);
+    std::vector<T> below, above;
+    for (std::size_t k = 0; k < row.u.size(); ++k) {
+      const T& value = in_type.all()[k];
+      if (!is_zero(value)) (row.is_reflected(k) ? above : below).push_back(value);
+    }
+    T sum(0);
+    for (std::size_t subset = 0; subset < std::size_t{1} << above.size(); ++subset) {
+      std::vector<T> corner = below;
+      for (std::size_t i = 0; i < above.size(); ++i) {
+        if ((subset >> i & 1) != 0) corner.push_back(above[i]);
+      }
+      const bool odd = (corner.size() - below.size()) % 2 != 0;
+      const T value = corner.empty() ? T(1) : exp(log_distribution(std::span<const T>(corner)));
+      sum += odd ? -value : value;
+    }
+    return log(sum);
+  }
+
+  template <class T>
+  T log_conditional(std::span<const T> u) const {
     if constexpr (HasLogConditional<G>) {
-      return generator_.template log_conditional<T>(u);
+      return generator_.log_conditional(u);
     } else {
-      return generic_log_conditional<T>(generator_, u);
+      return generic_log_conditional(generator_, u);
     }
   }
 
   template <class T>
-  T conditional_inverse(Row given, double p) const {
+  T conditional_inverse(std::span<const T> given, const T& p) const {
     if constexpr (HasConditionalInverse<G>) {
-      return generator_.template conditional_inverse<T>(given, p);
+      return generator_.conditional_inverse(given, p);
     } else {
-      return generic_conditional_inverse<T>(generator_, given, p);
+      return generic_conditional_inverse(generator_, given, p);
     }
   }
 

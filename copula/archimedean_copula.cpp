@@ -29,6 +29,12 @@ void ArchimedeanCopula::require_derivative(int order, const ColumnRef& t) const 
   }
 }
 
+void ArchimedeanCopula::require_few(const Reflection& reflection) {
+  if (reflection.count() <= kMostReflected) return;
+  throw std::domain_error("log_cdf: of a rotated copula at most " + std::to_string(kMostReflected) +
+                          " coordinates may be reflected, got " + std::to_string(reflection.count()));
+}
+
 Column ArchimedeanCopula::log_abs_dpsi(int order, const ColumnRef& t) const {
   require_derivative(order, t);
   Column out(t.size());

@@ -39,6 +39,9 @@ class ArchimedeanCopula : public Copula {
 
   static constexpr int kMostDigits = 10'000;
 
+  /// log_cdf of a rotated copula takes 2^m values of the cdf, m reflected coordinates.
+  static constexpr int kMostReflected = 20;
+
   /// n points by a route. The routes draw different points of the same distribution. @param n >= 1.
   /// @throws std::domain_error for the frailty route where has_frailty() is false.
   [[nodiscard]] Points sample_by(Route route, Index n, Rng& rng) const;
@@ -48,6 +51,9 @@ class ArchimedeanCopula : public Copula {
 
  protected:
   using Copula::Copula;
+
+  /// @throws std::domain_error for a log_cdf with more than kMostReflected reflected coordinates.
+  static void require_few(const Reflection& reflection);
 
  private:
   /// log V. Precondition: has_frailty().

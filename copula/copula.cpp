@@ -28,14 +28,14 @@ Copula::Copula(int dim) : dim_(dim) {
 Column Copula::log_pdf(const PointsRef& u) const {
   require_points("log_pdf", u, dim_, dim_);
   Column out(u.rows());
-  log_pdf_into(u, out);
+  log_pdf_into(u, {}, out);
   return out;
 }
 
 double Copula::log_pdf_at(std::span<const double> u) const {
   assert(static_cast<int>(u.size()) == dim_);
   double out;
-  log_pdf_into(Eigen::Map<const Points>(u.data(), 1, dim_), Eigen::Map<Column>(&out, 1));
+  log_pdf_into(Eigen::Map<const Points>(u.data(), 1, dim_), {}, Eigen::Map<Column>(&out, 1));
   return out;
 }
 
@@ -46,7 +46,7 @@ Column Copula::pdf(const PointsRef& u) const {
 Column Copula::log_cdf(const PointsRef& u) const {
   require_points("log_cdf", u, dim_, dim_);
   Column out(u.rows());
-  log_cdf_into(u, out);
+  log_cdf_into(u, {}, out);
   return out;
 }
 
@@ -57,35 +57,35 @@ Column Copula::cdf(const PointsRef& u) const {
 Column Copula::h(const PointsRef& u) const {
   require_points("h", u, 1, dim_);
   Column out(u.rows());
-  conditional_into(u, Tail::lower, out);
+  conditional_into(u, {}, Tail::lower, out);
   return out;
 }
 
 Column Copula::h_upper(const PointsRef& u) const {
   require_points("h_upper", u, 1, dim_);
   Column out(u.rows());
-  conditional_into(u, Tail::upper, out);
+  conditional_into(u, {}, Tail::upper, out);
   return out;
 }
 
 Column Copula::h_inv(const PointsRef& u) const {
   require_points("h_inv", u, 1, dim_);
   Column out(u.rows());
-  conditional_inverse_into(u, Tail::lower, out);
+  conditional_inverse_into(u, {}, Tail::lower, out);
   return out;
 }
 
 Column Copula::h_inv_upper(const PointsRef& u) const {
   require_points("h_inv_upper", u, 1, dim_);
   Column out(u.rows());
-  conditional_inverse_into(u, Tail::upper, out);
+  conditional_inverse_into(u, {}, Tail::upper, out);
   return out;
 }
 
 Points Copula::rosenblatt(const PointsRef& u) const {
   require_points("rosenblatt", u, dim_, dim_);
   Points w(u.rows(), dim_);
-  for (int k = 0; k < dim_; ++k) conditional_into(u.leftCols(k + 1), Tail::lower, w.col(k));
+  for (int k = 0; k < dim_; ++k) conditional_into(u.leftCols(k + 1), {}, Tail::lower, w.col(k));
   return w;
 }
 
@@ -105,7 +105,7 @@ Points Copula::inverse_rosenblatt(const PointsRef& w, const PointsRef& given) co
   u.rightCols(dim_ - fixed) = w;
   Column next(w.rows());
   for (Index k = fixed; k < dim_; ++k) {
-    conditional_inverse_into(u.leftCols(k + 1), Tail::lower, next);
+    conditional_inverse_into(u.leftCols(k + 1), {}, Tail::lower, next);
     u.col(k) = next;
   }
   return u;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "copula/random.hpp"
+#include "copula/reflection.hpp"
 #include "copula/types.hpp"
 
 namespace sklar {
@@ -60,10 +61,14 @@ class Copula {
   enum class Tail { lower, upper };  ///< the quantity itself or its complement
 
  private:
-  virtual void log_pdf_into(const PointsRef& u, ColumnOut out) const = 0;
-  virtual void log_cdf_into(const PointsRef& u, ColumnOut out) const = 0;
-  virtual void conditional_into(const PointsRef& u, Tail tail, ColumnOut out) const = 0;
-  virtual void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const = 0;
+  // What the public calls of these names give for this copula rotated: with U its coordinates, that of the 1 - U_i for
+  // the reflected i and the other U_i, as exact as without rotation. u holds coordinates of the rotated copula.
+  // log_pdf_into: of the first u.cols() coordinates, 1 to dim().
+  virtual void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const = 0;
+  virtual void log_cdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const = 0;
+  virtual void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const = 0;
+  virtual void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
+                                        ColumnOut out) const = 0;
 
   int dim_;
 };

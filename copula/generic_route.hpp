@@ -12,20 +12,20 @@ namespace sklar {
 
 /// t = sum psi^-1(u_i).
 template <class T, Generator G>
-[[nodiscard]] T generic_sum(const G& g, std::span<const double> u) {
+[[nodiscard]] T generic_sum(const G& g, std::span<const T> u) {
   T t(0.0);
-  for (const double value : u) {
-    if (value < 1) t += g.template psi_inv<T>(value);
+  for (const T& value : u) {
+    if (!is_one(value)) t += g.psi_inv(value);
   }
   return t;
 }
 
 /// log c(u) = log |psi^(d)(t)| - sum log |psi'(psi^-1(u_i))|.
 template <class T, Generator G>
-[[nodiscard]] T generic_log_density(const G& g, std::span<const double> u) {
+[[nodiscard]] T generic_log_density(const G& g, std::span<const T> u) {
   T t(0.0), log_slopes(0.0);
-  for (const double value : u) {
-    const T part = value < 1 ? g.template psi_inv<T>(value) : T(0.0);
+  for (const T& value : u) {
+    const T part = is_one(value) ? T(0.0) : g.psi_inv(value);
     t += part;
     log_slopes += g.log_abs_dpsi(1, part);
   }
@@ -34,23 +34,23 @@ template <class T, Generator G>
 
 /// log h = log |psi^(j)(t_k)| - log |psi^(j)(t_j)|, j = k - 1 values given.
 template <class T, Generator G>
-[[nodiscard]] T generic_log_conditional(const G& g, std::span<const double> u) {
+[[nodiscard]] T generic_log_conditional(const G& g, std::span<const T> u) {
   const int given = static_cast<int>(u.size()) - 1;
-  const T before = generic_sum<T>(g, u.first(u.size() - 1));
-  return g.log_abs_dpsi(given, before + g.template psi_inv<T>(u.back())) - g.log_abs_dpsi(given, before);
+  const T before = generic_sum(g, u.first(u.size() - 1));
+  return g.log_abs_dpsi(given, before + g.psi_inv(u.back())) - g.log_abs_dpsi(given, before);
 }
 
 /// -log v with h(given.., v) = p: Newton for s = psi^-1(v) > 0 on log |psi^(j)(t_j)| - log |psi^(j)(t_j + s)| = -log p.
 template <class T, Generator G>
-[[nodiscard]] T generic_conditional_inverse(const G& g, std::span<const double> given, double p) {
+[[nodiscard]] T generic_conditional_inverse(const G& g, std::span<const T> given, const T& p) {
   const int order = static_cast<int>(given.size());
-  const T before = generic_sum<T>(g, given);
+  const T before = generic_sum(g, given);
   const T at_start = g.log_abs_dpsi(order, before);
   const auto rate = [&](const T& s) {
     const T here = g.log_abs_dpsi(order, before + s);
     return std::pair<T, T>(at_start - here, exp(g.log_abs_dpsi(order + 1, before + s) - here));
   };
-  const T target = -log(T(p));
+  const T target = -log(p);
   const T slope = exp(g.log_abs_dpsi(order + 1, before) - at_start);
   const T guess = target / slope;
   using std::isfinite;

@@ -33,11 +33,40 @@ template <class T>
   return a < b ? b + log1p(exp(a - b)) : a + log1p(exp(b - a));
 }
 
-/// log(u / v) for u, v > 0 whose logarithms are at hand, with small relative error where u is near v (u - v is exact
-/// there).
+/// Whether a number is 0 or 1 itself, not one that may be near it.
 template <class T>
-[[nodiscard]] T log_ratio(double u, double v, const T& log_u, const T& log_v) {
-  return u > 0.5 * v && u < 2 * v ? log1p((T(u) - T(v)) / T(v)) : log_u - log_v;
+[[nodiscard]] bool is_zero(const T& x) {
+  return x.value == 0 && x.error == 0;
+}
+template <class T>
+[[nodiscard]] bool is_one(const T& x) {
+  return x.value == 1 && x.error == 0;
+}
+
+template <class T>
+[[nodiscard]] int count_zeros(std::span<const T> u) {
+  return static_cast<int>(std::ranges::count_if(u, is_zero<T>));
+}
+template <class T>
+[[nodiscard]] int count_ones(std::span<const T> u) {
+  return static_cast<int>(std::ranges::count_if(u, is_one<T>));
+}
+template <class T>
+[[nodiscard]] bool all_ones(std::span<const T> u) {
+  return std::ranges::all_of(u, is_one<T>);
+}
+
+/// The smallest of one or more numbers, errors aside.
+template <class T>
+[[nodiscard]] const T& smallest_of(std::span<const T> u) {
+  return *std::min_element(u.begin(), u.end());
+}
+
+/// log(u / v) for u, v > 0 whose logarithms are at hand, with small relative error where u is near v (u - v is exact
+/// there, if u and v are).
+template <class T>
+[[nodiscard]] T log_ratio(const T& u, const T& v, const T& log_u, const T& log_v) {
+  return u > T(0.5) * v && u < T(2) * v ? log1p((u - v) / v) : log_u - log_v;
 }
 
 /// Whether x <= 0 for sure. In Widest a value within its own error bound counts as 0 once the bound is below what

@@ -48,9 +48,9 @@ class AliMikhailHaq {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    const T divisor = scaling<T>(u), delta = constants<T>().rest * (T(1) - T(u)) / divisor;
-    return delta < T(0.5) ? -log1p(-delta) : log(divisor) - log(T(u));
+  T psi_inv(const T& u) const {
+    const T divisor = scaling(u), delta = constants<T>().rest * (T(1) - u) / divisor;
+    return delta < T(0.5) ? -log1p(-delta) : log(divisor) - log(u);
   }
 
   template <class T>
@@ -62,7 +62,7 @@ class AliMikhailHaq {
   }
 
   template <class T>
-  T log_density(std::span<const double> u) const {
+  T log_density(std::span<const T> u) const {
     const Constants<T>& c = constants<T>();
     const Accumulated<T> sums(*this, u);
     const int d = static_cast<int>(u.size());
@@ -75,22 +75,22 @@ class AliMikhailHaq {
   }
 
   template <class T>
-  T log_cdf(std::span<const double> u) const {
+  T log_cdf(std::span<const T> u) const {
     const Accumulated<T> sums(*this, u);
     const T upper = constants<T>().rest * sums.delta / sums.w;
     if (upper < T(0.5)) return log1p(-upper);
     T log_c = constants<T>().log_rest - sums.log_scalings - log(sums.w);
-    for (const double value : u) log_c += log(T(value));
+    for (const T& value : u) log_c += log(value);
     return log_c;
   }
 
   // h = z R_(j+1)(y z) / R_(j+1)(y), j values given, y = x/w of those, z = a w / (1 - x a); for theta > 0 both
   // factors are below 1.
   template <class T>
-  T log_conditional(std::span<const double> u) const {
+  T log_conditional(std::span<const T> u) const {
     const auto given = u.first(u.size() - 1);
     const Accumulated<T> sums(*this, given);
-    const T v(u.back()), divisor = scaling<T>(u.back());
+    const T &v = u.back(), divisor = scaling(v);
     const T a = v / divisor, delta = (T(1) - v) / divisor;  // 1 - a(v) = (1-theta) delta
     const Constants<T>& c = constants<T>();
     const T stretch = positive_ ? T(1) + c.theta * sums.delta : sums.w / c.rest;
@@ -100,14 +100,14 @@ class AliMikhailHaq {
   }
 
   template <class T>
-  T conditional_inverse(std::span<const double> given, double p) const {
+  T conditional_inverse(std::span<const T> given, const T& p) const {
     const Accumulated<T> sums(*this, given);
     if (given.size() == 1) {
       const auto [z, distance] = solve_quadratic(sums.x, sums.w, p);
       return -log_value_at(sums, z, distance);
     }
     const auto rate = [&](const T& s) { return decrease(given.size(), sums, s, exp(-s), -expm1(-s)); };
-    const T target = -log(T(p));
+    const T target = -log(p);
     const T s = solve_increasing(rate, target, target / rate(T(0)).second);
     return -log_value_at(sums, exp(-s), -expm1(-s));
   }
@@ -123,9 +123,9 @@ class AliMikhailHaq {
 
   // D(u)
   template <class T>
-  T scaling(double u) const {
+  T scaling(const T& u) const {
     const Constants<T>& c = constants<T>();
-    return positive_ ? c.rest + c.theta * T(u) : T(1) - c.theta * (T(1) - T(u));
+    return positive_ ? c.rest + c.theta * u : T(1) - c.theta * (T(1) - u);
   }
 
   // 1 - theta a from a and 1 - a.
@@ -144,13 +144,13 @@ class AliMikhailHaq {
 
   template <class T>
   struct Accumulated {
-    Accumulated(const AliMikhailHaq& copula, std::span<const double> u) {
+    Accumulated(const AliMikhailHaq& copula, std::span<const T> u) {
       const Constants<T>& c = copula.constants<T>();
       T product(1), scalings(1), lost(0);  // of a; of D; 1 - D before the last logarithm
-      for (const double value : u) {
-        const T divisor = copula.scaling<T>(value), upper = T(1) - T(value);
+      for (const T& value : u) {
+        const T divisor = copula.scaling(value), upper = T(1) - value;
         delta += product * upper / divisor;
-        product *= T(value) / divisor;
+        product *= value / divisor;
         lost += scalings * (c.theta * upper);
         scalings *= divisor;
         if (scalings < T(kSmall)) {

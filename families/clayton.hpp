@@ -50,8 +50,8 @@ class Clayton {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    return expm1(scaled<T>(u)) / T(theta_);
+  T psi_inv(const T& u) const {
+    return expm1(scaled(u)) / T(theta_);
   }
 
   template <class T>
@@ -63,55 +63,56 @@ class Clayton {
   }
 
   template <class T>
-  T log_density(std::span<const double> u) const {
-    const double smallest = *std::ranges::min_element(u);
-    if (smallest == 0) return log_density_at_zeros<T>(u);
-    return -theta_ * std::log(smallest) < kSmall ? log_density_direct<T>(u) : log_density_scaled<T>(u, smallest);
+  T log_density(std::span<const T> u) const {
+    const T& smallest = smallest_of(u);
+    if (is_zero(smallest)) return log_density_at_zeros(u);
+    const bool small = -theta_ * std::log(static_cast<double>(smallest.value)) < kSmall;
+    return small ? log_density_direct(u) : log_density_scaled(u, smallest);
   }
 
   // -log(S) / theta, for theta > 0 relative to the smallest u.
   template <class T>
-  T log_cdf(std::span<const double> u) const {
+  T log_cdf(std::span<const T> u) const {
     if (theta_ < 0) {
       T s(0);  // S - 1
-      for (const double value : u) s += expm1(scaled<T>(value));
+      for (const T& value : u) s += expm1(scaled(value));
       if (s > T(-0.5)) return -log1p(s) / T(theta_);
-      const T total = sum<T>(u);
+      const T total = sum(u);
       return not_positive(total) ? T(-kInfinity) : -log(total) / T(theta_);
     }
-    const double smallest = *std::ranges::min_element(u);
-    const T log_smallest = log(T(smallest));
+    const T& smallest = smallest_of(u);
+    const T log_smallest = log(smallest);
     T unused(0);
-    return log_smallest - log1p(scaled_rest<T>(u, smallest, log_smallest, unused)) / T(theta_);
+    return log_smallest - log1p(scaled_rest(u, smallest, log_smallest, unused)) / T(theta_);
   }
 
   // For theta > 0, given a 0 the next coordinate is 0. For theta < 0, given values at the edge of the support or beyond
   // it is 1.
   template <class T>
-  T log_conditional(std::span<const double> u) const {
+  T log_conditional(std::span<const T> u) const {
     const auto given = u.first(u.size() - 1);
     if (theta_ > 0) {
-      return std::ranges::min(given) == 0 ? T(0) : -exponent<T>(given.size()) * log1p_increment<T>(given, u.back());
+      return count_zeros(given) > 0 ? T(0) : -exponent<T>(given.size()) * log1p_increment(given, u.back());
     }
-    const T s = sum<T>(given);
+    const T s = sum(given);
     if (not_positive(s)) return T(-kInfinity);
-    const T ratio = expm1(scaled<T>(u.back())) / s;
+    const T ratio = expm1(scaled(u.back())) / s;
     return not_positive(T(1) + ratio) ? T(-kInfinity) : -exponent<T>(given.size()) * log1p(ratio);
   }
 
   // h = (1 + D/S)^-(j + 1/theta) with D = expm1(x_k), so D = S expm1(-log p / (j + 1/theta)) and -log v =
   // log1p(D)/theta.
   template <class T>
-  T conditional_inverse(std::span<const double> given, double p) const {
-    const T s = sum<T>(given);
+  T conditional_inverse(std::span<const T> given, const T& p) const {
+    const T s = sum(given);
     if (not_positive(s)) return T(0);
     const T power = exponent<T>(given.size());
-    const bool on_surface = power.value == 0 && power.error == 0;  // a single v, where D = -S
-    const T y = on_surface ? T(-kInfinity) : -log(T(p)) / power;
+    const bool on_surface = is_zero(power);  // a single v, where D = -S
+    const T y = on_surface ? T(-kInfinity) : -log(p) / power;
     const T growth = s * expm1(y);
     if (growth > T(-0.5)) return log1p(growth) / T(theta_);
     T missing(0);  // 1 - S
-    for (const double value : given) missing -= expm1(scaled<T>(value));
+    for (const T& value : given) missing -= expm1(scaled(value));
     return log(missing + s * exp(y)) / T(theta_);
   }
 
@@ -123,18 +124,18 @@ class Clayton {
   static constexpr double kSmall = 1.0;  // largest x_i of the direct form; beyond it S may overflow
 
   template <class T>
-  T scaled(double u) const {
-    return -T(theta_) * log(T(u));
+  T scaled(const T& u) const {
+    return -T(theta_) * log(u);
   }
 
   // S = 1 + sum expm1(x_i), as e^(x_m) + sum_{i != m} expm1(x_i), m the smallest value: e^(x_m) may be far below 1
   // where all others are 1.
   template <class T>
-  T sum(std::span<const double> u) const {
-    const auto smallest = std::ranges::min_element(u);
-    T s = exp(scaled<T>(*smallest));
-    for (auto value = u.begin(); value != u.end(); ++value) {
-      if (value != smallest) s += expm1(scaled<T>(*value));
+  T sum(std::span<const T> u) const {
+    const T& smallest = smallest_of(u);
+    T s = exp(scaled(smallest));
+    for (const T& value : u) {
+      if (&value != &smallest) s += expm1(scaled(value));
     }
     return s;
   }
@@ -153,10 +154,10 @@ class Clayton {
   // log c = sum_{k<d} log1p(k theta) - (1 + theta) sum log u_i - (d + 1/theta) log1p(s), s = S - 1; also the form for
   // theta < 0, where the density is 0 once S <= 0.
   template <class T>
-  T log_density_direct(std::span<const double> u) const {
+  T log_density_direct(std::span<const T> u) const {
     Total<T> excess, sum_of_logs;
-    for (const double value : u) {
-      const T log_value = log(T(value));
+    for (const T& value : u) {
+      const T log_value = log(value);
       excess += expm1(-T(theta_) * log_value);
       sum_of_logs += log_value;
     }
@@ -168,45 +169,41 @@ class Clayton {
   // n zeros replaced by eps: for theta > 0 the density behaves like eps^(theta (d - n) - (n - 1)); for theta < 0 only
   // one zero among ones is at the edge of the support, and the density like eps^(theta (d - 1)).
   template <class T>
-  T log_density_at_zeros(std::span<const double> u) const {
-    const auto zeros = static_cast<int>(std::ranges::count(u, 0.0));
+  T log_density_at_zeros(std::span<const T> u) const {
+    const int zeros = count_zeros(u);
     const int d = static_cast<int>(u.size());
     if (theta_ < 0) {
-      const bool at_edge = zeros == 1 && std::ranges::count(u, 1.0) == d - 1;
+      const bool at_edge = zeros == 1 && count_ones(u) == d - 1;
       const bool has_density = constants<T>().log_rising[u.size()].value > -kInfinity;
       return T(at_edge && has_density ? kInfinity : -kInfinity);
     }
     const double power = theta_ * (d - zeros) - (zeros - 1);
     if (power != 0) return T(power > 0 ? -kInfinity : kInfinity);
     T log_c = constants<T>().log_rising[u.size()] - exponent<T>(u.size()) * log(T(zeros));
-    for (const double value : u) {
-      if (value > 0) log_c -= (T(1) + constants<T>().theta) * log(T(value));
+    for (const T& value : u) {
+      if (!is_zero(value)) log_c -= (T(1) + constants<T>().theta) * log(value);
     }
     return log_c;
   }
 
   template <class T>
-  T log_density_scaled(std::span<const double> u, double smallest) const {
+  T log_density_scaled(std::span<const T> u, const T& smallest) const {
     T log_ratios(0);
-    const T log_smallest = log(T(smallest));
-    const T rest = scaled_rest<T>(u, smallest, log_smallest, log_ratios);
+    const T log_smallest = log(smallest);
+    const T rest = scaled_rest(u, smallest, log_smallest, log_ratios);
     const Constants<T>& c = constants<T>();
     return c.log_rising[u.size()] - (T(1) + c.theta) * log_ratios - T(static_cast<int>(u.size()) - 1) * log_smallest -
            exponent<T>(u.size()) * log1p(rest);
   }
 
-  // S e^(-x_m) - 1 >= 0, theta > 0, m the smallest value (counted once); log_ratios becomes sum log(u_i / m).
+  // S e^(-x_m) - 1 >= 0, theta > 0, m the smallest value, an entry of u; log_ratios becomes sum log(u_i / m).
   template <class T>
-  T scaled_rest(std::span<const double> u, double smallest, const T& log_smallest, T& log_ratios) const {
+  T scaled_rest(std::span<const T> u, const T& smallest, const T& log_smallest, T& log_ratios) const {
     Total<T> rest, ratios;
-    bool skipped = false;
-    for (const double value : u) {
-      if (value == smallest && !skipped) {
-        skipped = true;
-        continue;
-      }
-      const T log_value = log(T(value));
-      const T ratio = log_ratio<T>(value, smallest, log_value, log_smallest);
+    for (const T& value : u) {
+      if (&value == &smallest) continue;
+      const T log_value = log(value);
+      const T ratio = log_ratio(value, smallest, log_value, log_smallest);
       ratios += ratio;
       rest += -(exp(-T(theta_) * ratio) * expm1(T(theta_) * log_value));
     }
@@ -216,12 +213,12 @@ class Clayton {
 
   // log(1 + D/S), D = expm1(x_k) from the last value v: the growth of S by one more coordinate, theta > 0.
   template <class T>
-  T log1p_increment(std::span<const double> given, double v) const {
-    const double smallest = *std::ranges::min_element(given);
-    const T log_smallest = log(T(smallest));
+  T log1p_increment(std::span<const T> given, const T& v) const {
+    const T& smallest = smallest_of(given);
+    const T log_smallest = log(smallest);
     T unused(0);
-    const T shift = -T(theta_) * log_ratio<T>(v, smallest, log(T(v)), log_smallest);
-    const T weight = -expm1(-scaled<T>(v)) / (T(1) + scaled_rest<T>(given, smallest, log_smallest, unused));
+    const T shift = -T(theta_) * log_ratio(v, smallest, log(v), log_smallest);
+    const T weight = -expm1(-scaled(v)) / (T(1) + scaled_rest(given, smallest, log_smallest, unused));
     // D/S = weight e^shift; for shift > 1 weight is of order 1 and the exponential may be huge.
     return shift > T(1) ? shift + log(weight + exp(-shift)) : log1p(weight * exp(shift));
   }

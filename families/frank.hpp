@@ -64,8 +64,8 @@ class Frank {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    return -weight<T>(u).log_value();
+  T psi_inv(const T& u) const {
+    return -weight(u).log_value();
   }
 
   template <class T>
@@ -78,18 +78,18 @@ class Frank {
   }
 
   template <class T>
-  T log_density(std::span<const double> u) const {
-    const double smallest = *std::ranges::min_element(u);
-    const Product<T> product = multiply<T>(u, smallest);
+  T log_density(std::span<const T> u) const {
+    const T& smallest = smallest_of(u);
+    const Product<T> product = multiply(u, smallest);
     const Constants<T>& c = constants<T>();
     const int d = static_cast<int>(u.size());
     const T& log_complement = product.log_complement;
     Total<T> distance;  // sum (u_i - m) for theta > 0, sum u_i for theta < 0
-    for (const double value : u) distance += positive_ ? T(value) - T(smallest) : T(value);
+    for (const T& value : u) distance += positive_ ? value - smallest : value;
     const T front = T(d - 1) * c.log_theta_by_q - c.theta * distance.value();
     if (d == 2) return front - T(2) * log_complement;  // R_2(y) = 1 / (1-x)
     if (!positive_) return front + log_polynomial(d, product.x, T(1) - product.x) - log_complement;
-    const T shift = c.theta * T(smallest);
+    const T shift = c.theta * smallest;
     const T complement = exp(log_complement - shift);
     const auto r = polynomials_.split(d, product.x, complement);
     if (!r.leads) return front - T(d - 1) * shift + r.log_rest - log_complement;
@@ -98,10 +98,10 @@ class Frank {
   }
 
   template <class T>
-  T log_cdf(std::span<const double> u) const {
+  T log_cdf(std::span<const T> u) const {
     T value(1), complement(0);  // of the product of all weights
-    for (const double factor : u) {
-      const Weight<T> a = weight<T>(factor);
+    for (const T& factor : u) {
+      const Weight<T> a = weight(factor);
       complement += value * a.complement;
       value *= a.value;
     }
@@ -111,10 +111,10 @@ class Frank {
   // log h = log z + log(R_j(y z) / R_j(y)), j values given, y of those, z = a_k / (1 + y delta_k); for theta > 0 both
   // are negative. j = 1, either sign: h = z = a(1-x)/(1-xa), 1-h = delta/(1-xa).
   template <class T>
-  T log_conditional(std::span<const double> u) const {
+  T log_conditional(std::span<const T> u) const {
     const auto given = u.first(u.size() - 1);
-    const Weight<T> last = weight<T>(u.back());
-    if (given.size() == 1) return log_conditional_pair<T>(given[0], last);
+    const Weight<T> last = weight(u.back());
+    if (given.size() == 1) return log_conditional_pair(given[0], last);
     const Given<T> before(*this, given);
     const T growth = before.odds * last.complement, divisor = T(1) + growth;
     const T z = last.value / divisor, distance = (last.complement + growth) / divisor;
@@ -122,12 +122,12 @@ class Frank {
   }
 
   template <class T>
-  T conditional_inverse(std::span<const double> given, double p) const {
+  T conditional_inverse(std::span<const T> given, const T& p) const {
     if (given.size() == 1) {
       // a = p / (p + (1-p) e^(-theta u_1)), a linear equation.
-      const T rest = (T(1) - T(p)) * exp(-constants<T>().theta * T(given[0]));
-      const T sum = T(p) + rest;
-      return minus_log_value(T(p) / sum, rest / sum);
+      const T rest = (T(1) - p) * exp(-constants<T>().theta * given[0]);
+      const T sum = p + rest;
+      return minus_log_value(p / sum, rest / sum);
     }
     const Given<T> before(*this, given);
     if (given.size() == 2) {
@@ -135,7 +135,7 @@ class Frank {
       return minus_log_value_at(before, z, distance);
     }
     const auto rate = [&](const T& s) { return decrease(given.size(), before, s, exp(-s), -expm1(-s)); };
-    const T target = -log(T(p));
+    const T target = -log(p);
     const T s = solve_increasing(rate, target, target / rate(T(0)).second);
     return minus_log_value_at(before, exp(-s), -expm1(-s));
   }
@@ -165,15 +165,15 @@ class Frank {
 
   // The smaller of q a and q (1 - a) by expm1, the larger as what is left of q.
   template <class T>
-  Weight<T> weight(double u) const {
+  Weight<T> weight(const T& u) const {
     const Constants<T>& c = constants<T>();
     const auto small = [&](const T& part) { return abs(part) <= T(0.5) * abs(c.q); };
-    if (u < 0.5) {
-      const T lower = -expm1(-c.theta * T(u));
+    if (u < T(0.5)) {
+      const T lower = -expm1(-c.theta * u);
       if (small(lower)) return {lower * c.inverse_q, (c.q - lower) * c.inverse_q};
     }
-    const T upper = -exp(-c.theta * T(u)) * expm1(-c.theta * (T(1) - T(u)));
-    const T lower = small(upper) ? c.q - upper : -expm1(-c.theta * T(u));
+    const T upper = -exp(-c.theta * u) * expm1(-c.theta * (T(1) - u));
+    const T lower = small(upper) ? c.q - upper : -expm1(-c.theta * u);
     return {lower * c.inverse_q, upper * c.inverse_q};
   }
 
@@ -196,29 +196,25 @@ class Frank {
   }
 
   template <class T>
-  Product<T> multiply(std::span<const double> u, double smallest) const {
+  Product<T> multiply(std::span<const T> u, const T& smallest) const {
     const Constants<T>& c = constants<T>();
     T others(1), complement(0);  // of the product over i != m
-    bool skipped = false;
-    for (const double value : u) {
-      if (value == smallest && !skipped) {
-        skipped = true;
-        continue;
-      }
-      const Weight<T> a = weight<T>(value);
+    for (const T& value : u) {
+      if (&value == &smallest) continue;
+      const Weight<T> a = weight(value);
       complement += others * a.complement;
       others *= a.value;
     }
-    const T x = c.q * weight<T>(smallest).value * others;
+    const T x = c.q * weight(smallest).value * others;
     if (!positive_) return {x, log1p(-x)};
-    return {x, log1p(expm1(c.theta * T(smallest)) * complement)};
+    return {x, log1p(expm1(c.theta * smallest) * complement)};
   }
 
   template <class T>
-  T log_conditional_pair(double given, const Weight<T>& a) const {
+  T log_conditional_pair(const T& given, const Weight<T>& a) const {
     const Constants<T>& c = constants<T>();
-    const T rest = exp(-c.theta * T(given));  // 1 - x
-    const T x = -expm1(-c.theta * T(given));
+    const T rest = exp(-c.theta * given);  // 1 - x
+    const T x = -expm1(-c.theta * given);
     const T sum = positive_ ? rest + x * a.complement : T(1) - x * a.value;
     const T upper = a.complement / sum;
     return upper < T(0.5) ? log1p(-upper) : log(a.value * rest / sum);
@@ -227,10 +223,10 @@ class Frank {
   // x, 1 - x and x/(1-x) of the given coordinates.
   template <class T>
   struct Given {
-    Given(const Frank& frank, std::span<const double> given) {
-      const double smallest = *std::ranges::min_element(given);
-      const Product<T> product = frank.multiply<T>(given, smallest);
-      const T shift = frank.positive_ ? frank.constants<T>().theta * T(smallest) : T(0);
+    Given(const Frank& frank, std::span<const T> given) {
+      const T& smallest = smallest_of(given);
+      const Product<T> product = frank.multiply(given, smallest);
+      const T shift = frank.positive_ ? frank.constants<T>().theta * smallest : T(0);
       x = product.x;
       complement = exp(product.log_complement - shift);
       odds = x * exp(shift - product.log_complement);

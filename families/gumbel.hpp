@@ -48,8 +48,8 @@ class Gumbel {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    return exp(T(theta_) * log(-log(T(u))));
+  T psi_inv(const T& u) const {
+    return exp(T(theta_) * log(-log(u)));
   }
 
   template <class T>
@@ -62,9 +62,9 @@ class Gumbel {
   }
 
   template <class T>
-  T log_density(std::span<const double> u) const {
+  T log_density(std::span<const T> u) const {
     if (on_boundary(u)) return T(log_density_on_boundary(u));
-    const Accumulated<T> sums = accumulate<T>(u);
+    const Accumulated<T> sums = accumulate(u);
     const int d = static_cast<int>(u.size());
     const T log_ratios = sums.log_ratios - T(d) * sums.log_stretch;
     const T gap = sums.others - sums.largest * sums.stretch;
@@ -72,27 +72,27 @@ class Gumbel {
   }
 
   template <class T>
-  T log_cdf(std::span<const double> u) const {
-    return std::ranges::min(u) == 1 ? T(0) : -accumulate<T>(u).s();
+  T log_cdf(std::span<const T> u) const {
+    return all_ones(u) ? T(0) : -accumulate(u).s();
   }
 
   // Given a 0 the next coordinate is 0; given nothing but ones it is 1.
   template <class T>
-  T log_conditional(std::span<const double> u) const {
+  T log_conditional(std::span<const T> u) const {
     const auto given = u.first(u.size() - 1);
-    if (std::ranges::min(given) == 0) return T(0);
-    if (std::ranges::min(given) == 1) return T(-std::numeric_limits<double>::infinity());
+    if (count_zeros(given) > 0) return T(0);
+    if (all_ones(given)) return T(-std::numeric_limits<double>::infinity());
     const Conditional<T> conditional(*this, given);
     return -conditional.decrease(conditional.log_growth(u.back())).first;
   }
 
   template <class T>
-  T conditional_inverse(std::span<const double> given, double p) const {
-    if (std::ranges::min(given) == 0) return T(std::numeric_limits<double>::infinity());
-    if (std::ranges::min(given) == 1) return T(0);
+  T conditional_inverse(std::span<const T> given, const T& p) const {
+    if (count_zeros(given) > 0) return T(std::numeric_limits<double>::infinity());
+    if (all_ones(given)) return T(0);
     const Conditional<T> conditional(*this, given);
     const auto rate = [&](const T& log_growth) { return conditional.decrease(log_growth); };
-    const T target = -log(T(p));
+    const T target = -log(p);
     return conditional.value(solve_increasing(rate, target, target / conditional.slope_at_0()));
   }
 
@@ -112,18 +112,18 @@ class Gumbel {
     [[nodiscard]] T s() const { return largest * (T(1) + stretch); }
   };
 
-  static bool on_boundary(std::span<const double> u) {
-    const auto [smallest, largest] = std::ranges::minmax(u);
-    return smallest == 0 || largest == 1;
+  template <class T>
+  static bool on_boundary(std::span<const T> u) {
+    return std::ranges::any_of(u, [](const T& value) { return is_zero(value) || is_one(value); });
   }
 
   // n zeros replaced by eps, m ones by 1 - eps: the density behaves like eps^(m (theta-1) - n + n^(1/theta)), n >= 2;
   // like 0 for n = 1 and for n = 0 unless all are ones.
-  double log_density_on_boundary(std::span<const double> u) const {
-    const auto zeros = static_cast<double>(std::ranges::count(u, 0.0));
-    const auto ones = static_cast<double>(std::ranges::count(u, 1.0));
-    const bool infinite = zeros == 0 ? ones == static_cast<double>(u.size())
-                                     : zeros > 1 && zeros - std::pow(zeros, 1 / theta_) > ones * (theta_ - 1);
+  template <class T>
+  double log_density_on_boundary(std::span<const T> u) const {
+    const double zeros = count_zeros(u), ones = count_ones(u);
+    const bool infinite =
+        zeros == 0 ? all_ones(u) : zeros > 1 && zeros - std::pow(zeros, 1 / theta_) > ones * (theta_ - 1);
     return infinite ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
   }
 
@@ -134,18 +134,14 @@ class Gumbel {
   }
 
   template <class T>
-  Accumulated<T> accumulate(std::span<const double> u) const {
-    const double smallest = *std::ranges::min_element(u);
-    const T log_smallest = log(T(smallest));
+  Accumulated<T> accumulate(std::span<const T> u) const {
+    const T& smallest = smallest_of(u);
+    const T log_smallest = log(smallest);
     const T largest = -log_smallest;
     Total<T> others, log_ratios, powers;
-    bool skipped = false;
-    for (const double value : u) {
-      if (value == smallest && !skipped) {
-        skipped = true;
-        continue;
-      }
-      const T log_value = log(T(value));
+    for (const T& value : u) {
+      if (&value == &smallest) continue;
+      const T log_value = log(value);
       const T ratio = log_of_ratio(value, smallest, log_value, log_smallest);
       others += -log_value;
       log_ratios += ratio;
@@ -158,8 +154,8 @@ class Gumbel {
 
   // log(x / x_m) from u and m, by the difference of the two where they are near each other.
   template <class T>
-  static T log_of_ratio(double u, double m, const T& log_u, const T& log_m) {
-    const T difference = log_ratio<T>(u, m, log_u, log_m) / -log_m;
+  static T log_of_ratio(const T& u, const T& m, const T& log_u, const T& log_m) {
+    const T difference = log_ratio(u, m, log_u, log_m) / -log_m;
     return difference < T(0.5) ? log1p(-difference) : log(log_u / log_m);
   }
 
@@ -168,10 +164,9 @@ class Gumbel {
   template <class T>
   class Conditional {
    public:
-    Conditional(const Gumbel& gumbel, std::span<const double> given)
-        : gumbel_(gumbel), order_(static_cast<int>(given.size())) {
-      const Accumulated<T> sums = gumbel.accumulate<T>(given);
-      smallest_ = std::ranges::min(given);
+    Conditional(const Gumbel& gumbel, std::span<const T> given)
+        : gumbel_(gumbel), order_(static_cast<int>(given.size())), smallest_(smallest_of(given)) {
+      const Accumulated<T> sums = gumbel.accumulate(given);
       log_smallest_ = -sums.largest;
       log_powers_ = sums.log_powers;
       s_ = sums.s();
@@ -179,9 +174,9 @@ class Gumbel {
     }
 
     /// log(s_k / s_j) = log(1 + (x_k/s_j)^theta) / theta for the next coordinate v.
-    [[nodiscard]] T log_growth(double v) const {
+    [[nodiscard]] T log_growth(const T& v) const {
       const T theta(gumbel_.theta_);
-      const T z = theta * log_of_ratio(v, smallest_, log(T(v)), log_smallest_) - log_powers_;
+      const T z = theta * log_of_ratio(v, smallest_, log(v), log_smallest_) - log_powers_;
       return (z > T(0) ? z + log1p(exp(-z)) : log1p(exp(z))) / theta;
     }
 
@@ -203,7 +198,7 @@ class Gumbel {
    private:
     const Gumbel& gumbel_;
     int order_;
-    double smallest_;
+    T smallest_;
     T log_smallest_, log_powers_, s_, log_s_;
   };
 

@@ -15,14 +15,19 @@ class Independence final : public ArchimedeanCopula {
   explicit Independence(int dim) : ArchimedeanCopula(dim) {}
 
  private:
-  void log_pdf_into(const PointsRef& u, ColumnOut out) const override { out = u.rowwise().sum() * 0.0; }
+  // Rotated, it is the same.
+  void log_pdf_into(const PointsRef& u, const Reflection&, ColumnOut out) const override {
+    out = u.rowwise().sum() * 0.0;
+  }
   // Column by column with std::log: Eigen's own log depends on a row's place in the batch.
-  void log_cdf_into(const PointsRef& u, ColumnOut out) const override {
+  void log_cdf_into(const PointsRef& u, const Reflection&, ColumnOut out) const override {
     out.setZero();
     for (const auto& column : u.colwise()) out += column.unaryExpr([](double value) { return std::log(value); });
   }
-  void conditional_into(const PointsRef& u, Tail tail, ColumnOut out) const override { last_column(u, tail, out); }
-  void conditional_inverse_into(const PointsRef& u, Tail tail, ColumnOut out) const override {
+  void conditional_into(const PointsRef& u, const Reflection&, Tail tail, ColumnOut out) const override {
+    last_column(u, tail, out);
+  }
+  void conditional_inverse_into(const PointsRef& u, const Reflection&, Tail tail, ColumnOut out) const override {
     last_column(u, tail, out);
   }
 
@@ -78,8 +83,8 @@ class Exponential {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    return -log(T(u));
+  T psi_inv(const T& u) const {
+    return -log(u);
   }
 
   template <class T>

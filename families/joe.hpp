@@ -51,8 +51,8 @@ class Joe {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    return -Weight<T>(constants<T>().theta * log1p(T(-u))).log_value();
+  T psi_inv(const T& u) const {
+    return -Weight<T>(constants<T>().theta * log1p(-u)).log_value();
   }
 
   template <class T>
@@ -70,8 +70,8 @@ class Joe {
 
   // n zeros or ones: the limits follow from the formulas, except where all values are 1.
   template <class T>
-  T log_density(std::span<const double> u) const {
-    if (std::ranges::min(u) == 1) return T(kInfinity);
+  T log_density(std::span<const T> u) const {
+    if (all_ones(u)) return T(kInfinity);
     const Constants<T>& c = constants<T>();
     const Accumulated<T> sums(c, u);
     const int d = static_cast<int>(u.size());
@@ -84,31 +84,31 @@ class Joe {
   }
 
   template <class T>
-  T log_cdf(std::span<const double> u) const {
-    if (std::ranges::min(u) == 1) return T(0);
+  T log_cdf(std::span<const T> u) const {
+    if (all_ones(u)) return T(0);
     const Constants<T>& c = constants<T>();
     const Accumulated<T> sums(c, u);
     T log_product(0);
     if (sums.product < T(0.5)) {
-      for (const double value : u) log_product += Weight<T>(c.theta * log1p(T(-value))).log_value();
+      for (const T& value : u) log_product += Weight<T>(c.theta * log1p(-value)).log_value();
     }
     return log_value(sums.product, log_product, sums.log_largest + sums.log_stretch / c.theta);
   }
 
   // Given nothing but ones the next coordinate is 1.
   template <class T>
-  T log_conditional(std::span<const double> u) const {
+  T log_conditional(std::span<const T> u) const {
     const auto given = u.first(u.size() - 1);
-    if (std::ranges::min(given) == 1) return T(-kInfinity);
+    if (all_ones(given)) return T(-kInfinity);
     return -Conditional<T>(*this, given).decrease_at(u.back());
   }
 
   template <class T>
-  T conditional_inverse(std::span<const double> given, double p) const {
-    if (std::ranges::min(given) == 1) return T(0);
+  T conditional_inverse(std::span<const T> given, const T& p) const {
+    if (all_ones(given)) return T(0);
     const Conditional<T> conditional(*this, given);
     const auto rate = [&](const T& s) { return conditional.decrease(s); };
-    const T target = -log(T(p));
+    const T target = -log(p);
     return conditional.minus_log_value(solve_increasing(rate, target, target / conditional.decrease(T(0)).second));
   }
 
@@ -139,19 +139,15 @@ class Joe {
 
   template <class T>
   struct Accumulated {
-    Accumulated(const Constants<T>& c, std::span<const double> u) {
-      const double smallest = *std::ranges::min_element(u);
-      log_largest = log1p(T(-smallest));
-      const T largest = T(1) - T(smallest);
+    Accumulated(const Constants<T>& c, std::span<const T> u) {
+      const T& smallest = smallest_of(u);
+      log_largest = log1p(-smallest);
+      const T largest = T(1) - smallest;
       T rest(0);
       Total<T> upper, ratios;
-      bool skipped = false;
-      for (const double value : u) {
-        if (value == smallest && !skipped) {
-          skipped = true;
-          continue;
-        }
-        const T log_upper = log1p(T(-value));
+      for (const T& value : u) {
+        if (&value == &smallest) continue;
+        const T log_upper = log1p(-value);
         const T ratio = log_upper_ratio(value, smallest, largest, log_upper, log_largest);
         upper += log_upper;
         ratios += ratio;
@@ -177,8 +173,8 @@ class Joe {
 
   // log((1-u) / (1-m)), m <= u, by the difference of the two where they are near each other.
   template <class T>
-  static T log_upper_ratio(double u, double m, const T& upper_m, const T& log_upper, const T& log_upper_m) {
-    const T difference = (T(m) - T(u)) / upper_m;
+  static T log_upper_ratio(const T& u, const T& m, const T& upper_m, const T& log_upper, const T& log_upper_m) {
+    const T difference = (m - u) / upper_m;
     return difference > T(-0.5) ? log1p(difference) : log_upper - log_upper_m;
   }
 
@@ -204,20 +200,20 @@ class Joe {
   template <class T>
   class Conditional {
    public:
-    Conditional(const Joe& joe, std::span<const double> given)
+    Conditional(const Joe& joe, std::span<const T> given)
         : joe_(joe),
           c_(joe.constants<T>()),
           order_(static_cast<int>(given.size())),
           sums_(c_, given),
-          smallest_(std::ranges::min(given)) {}
+          smallest_(smallest_of(given)) {}
 
     /// From the next coordinate v itself, Q = q/w.
-    [[nodiscard]] T decrease_at(double v) const {
-      const T log_upper = log1p(T(-v));
+    [[nodiscard]] T decrease_at(const T& v) const {
+      const T log_upper = log1p(-v);
       const Weight<T> weight(c_.theta * log_upper);
-      const T log_upper_ratio_v =
-          v < smallest_ ? -log_upper_ratio(smallest_, v, T(1) - T(v), sums_.log_largest, log_upper)
-                        : log_upper_ratio(v, smallest_, T(1) - T(smallest_), log_upper, sums_.log_largest);
+      const T log_upper_ratio_v = v < smallest_
+                                      ? -log_upper_ratio(smallest_, v, T(1) - v, sums_.log_largest, log_upper)
+                                      : log_upper_ratio(v, smallest_, T(1) - smallest_, log_upper, sums_.log_largest);
       const T log_ratio_q = c_.theta * log_upper_ratio_v - sums_.log_stretch;
       const T& product = sums_.product;
       if (log_ratio_q < T(0)) {
@@ -270,7 +266,7 @@ class Joe {
     const Constants<T>& c_;
     int order_;
     Accumulated<T> sums_;
-    double smallest_;
+    T smallest_;
   };
 
   std::shared_ptr<const PerPrecision<Constants>> constants_;

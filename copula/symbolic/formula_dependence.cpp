@@ -21,7 +21,7 @@ constexpr double kLatticeTolerance = 1e-9;  // differences of tau that say nothi
 double minus_t_slope(const SymbolicGenerator& generator, double u) {
   if (!(u > 0 && u < 1)) return 0;
   const auto value = first_answer([&]<class T>() {
-    const T t = generator.psi_inv<T>(u);
+    const T t = generator.psi_inv(T(u));
     return if_within(kTauTolerance, t * exp(generator.log_abs_dpsi(1, t)));
   });
   return value.value_or(kNaN);

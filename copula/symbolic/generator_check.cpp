@@ -68,7 +68,7 @@ class Check {
   [[nodiscard]] std::vector<double> arguments() const {
     std::vector<double> points;
     for (const double level : kLevels) {
-      const double t = generator_.psi_inv<Narrow>(level).value;
+      const double t = generator_.psi_inv(Narrow(level)).value;
       if (t > 0 && t < kInfinity) points.push_back(t);
     }
     const auto [least, most] = std::minmax_element(points.begin(), points.end());

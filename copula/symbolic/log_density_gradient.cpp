@@ -92,7 +92,7 @@ class RowGradient {
     T sum(0.0);
     std::vector<T> sum_slope(parameters_, T(0.0)), gradient(parameters_, T(0.0));
     for (const double value : u) {
-      const T t = psi_.psi_inv<T>(value);
+      const T t = psi_.psi_inv(T(value));
       sum += t;
       const auto slopes = at_margins_.run<T>(prepared.at_margins, t);
       const std::size_t of_psi = parameters_ + 1;

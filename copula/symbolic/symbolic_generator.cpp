@@ -56,7 +56,7 @@ void SymbolicGenerator::choose_inverse(const std::string& subject) {
     inverse_ = Inverse::formula;
     use_near_one_ = formula_->inverse_near_one() != nullptr && agrees(true) == true;
   } else if (is_inverse == false && formula_->inverse_is_given()) {
-    const double there = exp(log_psi(inverse_at<Narrow>(0.5, false))).value;
+    const double there = exp(log_psi(inverse_at(Narrow(0.5), false))).value;
     throw std::domain_error(subject +
                             ": psi_inverse is not the inverse of psi: psi(psi_inverse(0.5)) = " + to_text(there));
   }
@@ -66,7 +66,7 @@ template <class T>
 std::optional<bool> SymbolicGenerator::inverse_agrees(bool near_one) const {
   std::optional<bool> agrees;
   for (const double u : {0.125, 0.5, 0.875}) {
-    const auto here = same(log_psi(inverse_at<T>(u, near_one)), log(T(u)));
+    const auto here = same(log_psi(inverse_at(T(u), near_one)), log(T(u)));
     if (here) agrees = agrees.value_or(true) && *here;
   }
   return agrees;

@@ -51,12 +51,12 @@ class SymbolicGenerator {
   }
 
   template <class T>
-  [[nodiscard]] T psi_inv(double u) const {
-    if (inverse_ == Inverse::numeric) return solve<T>(u);
-    const bool near_one = use_near_one_ && u > 0.5;
-    const T first = inverse_at<T>(u, near_one);
+  [[nodiscard]] T psi_inv(const T& u) const {
+    if (inverse_ == Inverse::numeric) return solve(u);
+    const bool near_one = use_near_one_ && u > T(0.5);
+    const T first = inverse_at(u, near_one);
     if (!use_near_one_ || first.error <= kGoodEnough * abs(first).value) return first;
-    const T second = inverse_at<T>(u, !near_one);
+    const T second = inverse_at(u, !near_one);
     return second.error < first.error ? second : first;
   }
 
@@ -134,25 +134,27 @@ class SymbolicGenerator {
   }
 
   template <class T>
-  T inverse_at(double u, bool near_one) const {
-    if (near_one) return run(*formula_->inverse_near_one(), prepared<T>().inverse_near_one, T(1) - T(u));
-    return run(*formula_->inverse(), prepared<T>().inverse, T(u));
+  T inverse_at(const T& u, bool near_one) const {
+    if (near_one) return run(*formula_->inverse_near_one(), prepared<T>().inverse_near_one, T(1) - u);
+    return run(*formula_->inverse(), prepared<T>().inverse, u);
   }
 
   /// The t with -log psi(t) = -log u by solve_increasing; wider types start from the solution in double.
   template <class T>
-  T solve(double u) const {
-    if (u == 0) return formula_->conditions() == 0 ? T(kInfinity) : unknown<T>();
+  T solve(const T& u) const {
+    if (is_zero(u)) return formula_->conditions() == 0 ? T(kInfinity) : unknown<T>();
     const auto rate = [this](const T& t) {
       const T level = -log_psi(t);
       return std::pair<T, T>(level, exp(log_abs_dpsi(1, t) + level));
     };
+    const T target = -log(u);
+    if (!(target.value > target.error)) return unknown<T>();
     double start = 1;
     if constexpr (!std::is_same_v<T, Narrow>) {
-      const double narrow = solve<Narrow>(u).value;
+      const double narrow = solve(Narrow(static_cast<double>(u.value))).value;
       if (narrow > 0 && narrow < kInfinity) start = narrow;
     }
-    return solve_increasing(rate, -log(T(u)), T(start));
+    return solve_increasing(rate, target, T(start));
   }
 
   void choose_near_zero();

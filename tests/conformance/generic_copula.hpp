@@ -20,8 +20,8 @@ class Bare {
   }
 
   template <class T>
-  T psi_inv(double u) const {
-    return generator_.template psi_inv<T>(u);
+  T psi_inv(const T& u) const {
+    return generator_.psi_inv(u);
   }
 
   template <class T>

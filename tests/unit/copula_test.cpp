@@ -17,10 +17,12 @@ class LogOfFirst final : public Copula {
   static void first(const PointsRef& u, ColumnOut out) {
     out = u.col(0).unaryExpr([](double v) { return v == 1 ? std::numeric_limits<double>::infinity() : std::log(v); });
   }
-  void log_pdf_into(const PointsRef& u, ColumnOut out) const override { first(u, out); }
-  void log_cdf_into(const PointsRef& u, ColumnOut out) const override { first(u, out); }
-  void conditional_into(const PointsRef& u, Tail, ColumnOut out) const override { first(u, out); }
-  void conditional_inverse_into(const PointsRef& u, Tail, ColumnOut out) const override { first(u, out); }
+  void log_pdf_into(const PointsRef& u, const Reflection&, ColumnOut out) const override { first(u, out); }
+  void log_cdf_into(const PointsRef& u, const Reflection&, ColumnOut out) const override { first(u, out); }
+  void conditional_into(const PointsRef& u, const Reflection&, Tail, ColumnOut out) const override { first(u, out); }
+  void conditional_inverse_into(const PointsRef& u, const Reflection&, Tail, ColumnOut out) const override {
+    first(u, out);
+  }
 };
 
 TEST(Copula, ValuesReachZeroInfinityAndSubnormals) {

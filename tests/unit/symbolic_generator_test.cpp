@@ -190,7 +190,7 @@ TEST(SymbolicGenerator, TakesAGivenInverse) {
   const SymbolicGenerator derived(formula("1/(1+t^(1/theta))"), 2, {2.0, kDelta}, "F");
   const SymbolicGenerator given(formula("1/(1+t^(1/theta))", "(1/u-1)^theta"), 2, {2.0, kDelta}, "F");
   for (const double u : {1e-100, 0.25, 0.75, 1 - 1e-14}) {
-    const Narrow a = derived.psi_inv<Narrow>(u), b = given.psi_inv<Narrow>(u);
+    const Narrow a = derived.psi_inv(Narrow(u)), b = given.psi_inv(Narrow(u));
     EXPECT_NEAR(a.value, b.value, a.error + b.error) << u;
     EXPECT_LT(b.error, 1e-14 * b.value) << u;
   }

@@ -25,12 +25,12 @@ class FormulaCopula final : public Copula {
       : Copula(2), log_density_(std::move(log_density)), theta_(std::move(theta)) {}
 
  private:
-  void log_pdf_into(const PointsRef& u, ColumnOut out) const override {
+  void log_pdf_into(const PointsRef& u, const Reflection&, ColumnOut out) const override {
     for (Index row = 0; row < u.rows(); ++row) out[row] = log_density_(u(row, 0), u(row, 1), theta_);
   }
-  void log_cdf_into(const PointsRef&, ColumnOut out) const override { out = std::nan(""); }
-  void conditional_into(const PointsRef&, Tail, ColumnOut out) const override { out = std::nan(""); }
-  void conditional_inverse_into(const PointsRef&, Tail, ColumnOut out) const override { out = std::nan(""); }
+  void log_cdf_into(const PointsRef&, const Reflection&, ColumnOut out) const override { out = std::nan(""); }
+  void conditional_into(const PointsRef&, const Reflection&, Tail, ColumnOut out) const override { out = std::nan(""); }
+  void conditional_inverse_into(const PointsRef&, const Reflection&, Tail, ColumnOut out) const override { out = std::nan(""); }
 
   LogDensity log_density_;
   Theta theta_;
