@@ -7,55 +7,14 @@
 #include <sstream>
 
 #include "copula/archimedean_copula.hpp"
+#include "tests/conformance/agreement.hpp"
 #include "tests/conformance/family_test.hpp"
 #include "tests/support/psi_reference.hpp"
 
 namespace sklar::test {
 namespace {
 
-constexpr double kTolerance = 1e-13;
-constexpr double kInverseTolerance = 1e-12;
 constexpr int kDigits = 60;
-constexpr double kSmallestNormal = 2.2250738585072014e-308;
-constexpr double kSmallestDouble = 4.94e-324;
-
-Digits larger(const Digits& a, const Digits& b) {
-  return a > b ? a : b;
-}
-
-testing::AssertionResult verdict(bool passes, double value, const Digits& expected) {
-  if (passes) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "got " << to_text(value) << ", expected " << expected;
-}
-
-/// log densities and other logarithms.
-testing::AssertionResult logarithm_agrees(double value, const Digits& expected) {
-  const bool equal = Digits(value) == expected;  // both infinite
-  const Digits bound = kTolerance * larger(1, abs(expected));
-  return verdict(equal || abs(value - expected) <= bound, value, expected);
-}
-
-/// h and 1 - h: relative, weaker for tiny ones, and to the last place where a double is subnormal.
-testing::AssertionResult probability_agrees(double value, const Digits& expected) {
-  if (expected < kSmallestNormal) return verdict(abs(value - expected) <= kSmallestDouble, value, expected);
-  const Digits log_expected = log(expected);
-  const Digits bound = kTolerance * larger(1, abs(log_expected) / 20);
-  return verdict(abs(log(Digits(value)) - log_expected) <= bound, value, expected);
-}
-
-/// Whether `value` is v (or 1 - v for the upper one) with h(given.., v) = p: its relative error is small, seen by h a
-/// little to either side, or it is the best double there is.
-testing::AssertionResult is_inverse(const PsiReference& reference, std::span<const double> given, double p, bool upper,
-                                    double value) {
-  const Digits v = upper ? Digits(1 - Digits(value)) : Digits(value);
-  const Digits step = kInverseTolerance * Digits(value);
-  const bool below = v <= step || reference.conditional(given, v - step).value <= p;
-  const bool above = v + step >= 1 || reference.conditional(given, v + step).value >= p;
-  if (below && above) return testing::AssertionSuccess();
-  const auto h = reference.conditional(given, v);
-  const Digits eps = std::numeric_limits<double>::epsilon();
-  return verdict(abs(h.value - p) <= 1e-14 * p + 4 * eps * value * h.slope, value, Digits(p));
-}
 
 SKLAR_FAMILY_SUITE(TextbookPsi);
 
@@ -100,11 +59,12 @@ TEST_P(TextbookPsi, ConditionalAndItsInverse) {
       EXPECT_TRUE(probability_agrees(h(i), expected.value)) << "h" << row_text(u, i);
       EXPECT_TRUE(probability_agrees(upper(i), expected.complement)) << "h_upper" << row_text(u, i);
       const double p = row.back();
+      const auto h_at = [&](const Digits& x) { return reference.conditional(given, x); };
       if (v(i) > 0 && v(i) < 1) {
-        EXPECT_TRUE(is_inverse(reference, given, p, false, v(i))) << row_text(u, i);
+        EXPECT_TRUE(is_inverse(h_at, p, false, v(i))) << row_text(u, i);
       }
       if (w(i) > 0 && w(i) < 1) {
-        EXPECT_TRUE(is_inverse(reference, given, p, true, w(i))) << row_text(u, i);
+        EXPECT_TRUE(is_inverse(h_at, p, true, w(i))) << row_text(u, i);
       }
     }
   };
@@ -197,7 +157,9 @@ testing::AssertionResult inverse_agrees(const FamilyInfo& family, const TableRow
                                         const Digits& expected) {
   if (abs(value - expected) <= kInverseTolerance * abs(expected)) return testing::AssertionSuccess();
   const std::vector<double> given = row_of(row.u.leftCols(row.u.cols() - 1), 0);
-  return is_inverse(PsiReference(family, {row.theta}), given, row.u(0, row.u.cols() - 1), upper, value);
+  const PsiReference reference(family, {row.theta});
+  const auto h_at = [&](const Digits& v) { return reference.conditional(given, v); };
+  return is_inverse(h_at, row.u(0, row.u.cols() - 1), upper, value);
 }
 
 testing::AssertionResult row_agrees(const FamilyInfo& family, const TableRow& row) {
