@@ -61,6 +61,8 @@ class Copula {
   enum class Tail { lower, upper };  ///< the quantity itself or its complement
 
  private:
+  friend class Rotated;
+
   // What the public calls of these names give for this copula rotated: with U its coordinates, that of the 1 - U_i for
   // the reflected i and the other U_i, as exact as without rotation. u holds coordinates of the rotated copula.
   // log_pdf_into: of the first u.cols() coordinates, 1 to dim().

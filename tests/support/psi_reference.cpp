@@ -30,6 +30,10 @@ void add_bases(const Expression& e, std::vector<Expression>& bases) {
   for (const Expression& arg : e.args()) add_bases(arg, bases);
 }
 
+std::vector<Digits> in_digits(std::span<const double> u) {
+  return {u.begin(), u.end()};
+}
+
 template <class Compute>
 std::vector<Digits> with_digits(int digits, const Compute& compute) {
   const WorkingPrecision precision(digits);
@@ -151,9 +155,9 @@ Digits PsiReference::inverse(const Digits& u) const {
   return exp(log_inverse(log(-log(u)), start));
 }
 
-Digits PsiReference::sum_of_inverses(std::span<const double> u) const {
+Digits PsiReference::sum_of_inverses(std::span<const Digits> u) const {
   Digits t = 0;
-  for (const double value : u) t += inverse(Digits(value));
+  for (const Digits& value : u) t += inverse(value);
   return t;
 }
 
@@ -162,10 +166,14 @@ Digits PsiReference::log_abs_dpsi(int k, double t) const {
 }
 
 Digits PsiReference::log_density(std::span<const double> u) const {
+  return log_density(in_digits(u));
+}
+
+Digits PsiReference::log_density(std::span<const Digits> u) const {
   return in_two_widths(kLogarithm, [&] {
     Digits t = 0, weights = 0;
-    for (const double value : u) {
-      const Digits part = inverse(Digits(value));
+    for (const Digits& value : u) {
+      const Digits part = inverse(value);
       t += part;
       weights += log_abs_derivative(1, part);
     }
@@ -174,24 +182,31 @@ Digits PsiReference::log_density(std::span<const double> u) const {
 }
 
 Digits PsiReference::log_cdf(std::span<const double> u) const {
-  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(derivative(0, sum_of_inverses(u)))}; })[0];
+  const std::vector<Digits> point = in_digits(u);
+  return in_two_widths(kLogarithm, [&] { return std::vector<Digits>{log(derivative(0, sum_of_inverses(point)))}; })[0];
 }
 
 Digits PsiReference::volume(std::span<const double> lower, std::span<const double> upper) const {
+  return volume(in_digits(lower), in_digits(upper));
+}
+
+Digits PsiReference::volume(std::span<const Digits> lower, std::span<const Digits> upper) const {
   return in_two_widths(kProbability, [&] {
     std::vector<Digits> low, high;
-    for (const double value : lower) low.push_back(inverse(Digits(value)));
-    for (const double value : upper) high.push_back(inverse(Digits(value)));
+    for (const Digits& value : lower) low.push_back(value == 0 ? Digits(-1) : inverse(value));  // -1: C is 0
+    for (const Digits& value : upper) high.push_back(value == 1 ? Digits(0) : inverse(value));
     Digits total = 0;
     for (std::size_t corner = 0; corner < std::size_t{1} << lower.size(); ++corner) {
       Digits t = 0;
-      bool odd = false;
+      bool odd = false, zero = false;
       for (std::size_t i = 0; i < lower.size(); ++i) {
         const bool at_low = (corner >> i & 1) != 0;
         t += at_low ? low[i] : high[i];
         odd = odd != at_low;
+        zero = zero || (at_low && low[i] < 0);
       }
-      const Digits value = derivative(0, t);
+      if (zero) continue;
+      const Digits value = t == 0 ? Digits(1) : derivative(0, t);
       total += odd ? Digits(-value) : value;
     }
     return std::vector<Digits>{total};
@@ -219,6 +234,10 @@ Digits PsiReference::tau_integrand(double v) const {
 }
 
 PsiReference::Conditional PsiReference::conditional(std::span<const double> given, const Digits& v) const {
+  return conditional(in_digits(given), v);
+}
+
+PsiReference::Conditional PsiReference::conditional(std::span<const Digits> given, const Digits& v) const {
   const std::vector<Digits> result = in_two_widths(kProbability, [&] {
     const int j = static_cast<int>(given.size());
     const Digits before = sum_of_inverses(given), step = inverse(v);

@@ -25,12 +25,14 @@ class PsiReference {
 
   /// log c(u), all u_i in (0,1); -inf where the density is 0.
   [[nodiscard]] Digits log_density(std::span<const double> u) const;
+  [[nodiscard]] Digits log_density(std::span<const Digits> u) const;
 
   /// log C(u).
   [[nodiscard]] Digits log_cdf(std::span<const double> u) const;
 
-  /// Probability of the box between two corners in (0,1)^d.
+  /// Probability of the box between two corners, lower in [0,1)^d and upper in (0,1]^d.
   [[nodiscard]] Digits volume(std::span<const double> lower, std::span<const double> upper) const;
+  [[nodiscard]] Digits volume(std::span<const Digits> lower, std::span<const Digits> upper) const;
 
   struct Conditional {
     Digits value;       ///< h = C(v | given)
@@ -39,6 +41,7 @@ class PsiReference {
   };
   /// Precondition: the density of the given values is not 0.
   [[nodiscard]] Conditional conditional(std::span<const double> given, const Digits& v) const;
+  [[nodiscard]] Conditional conditional(std::span<const Digits> given, const Digits& v) const;
 
   struct Probability {
     Digits value, complement;
@@ -63,7 +66,7 @@ class PsiReference {
   /// log t with log(-log psi(t)) = target, from a first guess.
   Digits log_inverse(const Digits& target, Digits guess) const;
   Digits inverse(const Digits& u) const;
-  Digits sum_of_inverses(std::span<const double> u) const;
+  Digits sum_of_inverses(std::span<const Digits> u) const;
 
   Theta theta_;
   std::shared_ptr<Formulas> formulas_;
