@@ -11,7 +11,8 @@
 
 namespace sklar {
 
-/// A copula C on [0,1]^d. Accuracy of every quantity: see Archimedean (relative error of log density <= 1e-13).
+/// A copula C on [0,1]^d. Accuracy of every quantity: see Archimedean (relative error of log density <= 1e-13) and
+/// Mixture.
 /// Points of the boundary are valid input. A coordinate 0 or 1 stands for the limit eps or 1 - eps, eps -> 0, the same
 /// eps in all coordinates: it matters in the corners, where densities and conditionals depend on the direction of
 /// approach (log_pdf may be -inf or inf there). A last coordinate or p of 0 or 1 gives 0 or 1 itself in h and h_inv.
@@ -62,6 +63,7 @@ class Copula {
 
  private:
   friend class Rotated;
+  friend class Mixture;
 
   // What the public calls of these names give for this copula rotated: with U its coordinates, that of the 1 - U_i for
   // the reflected i and the other U_i, as exact as without rotation. u holds coordinates of the rotated copula.
