@@ -168,12 +168,13 @@ class Frank {
   Weight<T> weight(const T& u) const {
     const Constants<T>& c = constants<T>();
     const auto small = [&](const T& part) { return abs(part) <= T(0.5) * abs(c.q); };
+    const T exponent = -(c.theta * u);
     if (u < T(0.5)) {
-      const T lower = -expm1(-c.theta * u);
+      const T lower = -expm1(exponent);
       if (small(lower)) return {lower * c.inverse_q, (c.q - lower) * c.inverse_q};
     }
-    const T upper = -exp(-c.theta * u) * expm1(-c.theta * (T(1) - u));
-    const T lower = small(upper) ? c.q - upper : -expm1(-c.theta * u);
+    const T upper = -exp(exponent) * expm1(-c.theta * (T(1) - u));
+    const T lower = small(upper) ? c.q - upper : -expm1(exponent);
     return {lower * c.inverse_q, upper * c.inverse_q};
   }
 
