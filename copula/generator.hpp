@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <span>
+#include <utility>
 
 #include "copula/random.hpp"
 #include "copula/wide.hpp"
@@ -54,6 +55,13 @@ concept HasLogConditional = requires(const G& g, std::span<const Narrow> u) {
 template <class G>
 concept HasConditionalInverse = requires(const G& g, std::span<const Narrow> given, const Narrow& p) {
   { g.conditional_inverse(given, p) } -> std::same_as<Narrow>;
+};
+
+/// Optional: psi^-1(u) and log |psi'| there, u in (0,1], for generators that remember what they were asked: the points
+/// of a grid share few coordinates.
+template <class G>
+concept HasMargin = requires(const G& g, const Narrow& u) {
+  { g.margin(u) } -> std::same_as<std::pair<Narrow, Narrow>>;
 };
 
 /// Optional: log of the frailty, whose Laplace transform is psi, and whether there is one for these parameters.

@@ -20,14 +20,25 @@ template <class T, Generator G>
   return t;
 }
 
+/// psi^-1(u) and log |psi'| there.
+template <class T, Generator G>
+[[nodiscard]] std::pair<T, T> generic_margin(const G& g, const T& u) {
+  if constexpr (HasMargin<G>) {
+    return g.margin(u);
+  } else {
+    const T t = is_one(u) ? T(0.0) : g.psi_inv(u);
+    return {t, g.log_abs_dpsi(1, t)};
+  }
+}
+
 /// log c(u) = log |psi^(d)(t)| - sum log |psi'(psi^-1(u_i))|.
 template <class T, Generator G>
 [[nodiscard]] T generic_log_density(const G& g, std::span<const T> u) {
   T t(0.0), log_slopes(0.0);
   for (const T& value : u) {
-    const T part = is_one(value) ? T(0.0) : g.psi_inv(value);
+    const auto [part, log_slope] = generic_margin(g, value);
     t += part;
-    log_slopes += g.log_abs_dpsi(1, part);
+    log_slopes += log_slope;
   }
   return g.log_abs_dpsi(static_cast<int>(u.size()), t) - log_slopes;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// A generator given as a formula, with values for its parameters.
 
+#include <atomic>
 #include <limits>
 
 #include "copula/generator.hpp"
@@ -60,6 +61,24 @@ class SymbolicGenerator {
     return second.error < first.error ? second : first;
   }
 
+  /// psi^-1(u) and log |psi'| there. A thread keeps the last answers for exact u in double and long double.
+  template <class T>
+  [[nodiscard]] std::pair<T, T> margin(const T& u) const {
+    const auto compute = [&] {
+      const T t = is_one(u) ? T(0.0) : psi_inv(u);
+      return std::pair<T, T>(t, log_abs_dpsi(1, t));
+    };
+    if constexpr (std::is_same_v<T, Widest>) {
+      return compute();
+    } else {
+      if (u.error != 0) return compute();
+      thread_local std::vector<Remembered<T>> memory(kRemembered);
+      Remembered<T>& place = memory[std::hash<Real<T>>()(u.value) % kRemembered];
+      if (place.generator != id_ || place.u != u.value) place = {id_, u.value, compute()};
+      return place.margin;
+    }
+  }
+
   template <class T>
   [[nodiscard]] T log_abs_dpsi(int k, const T& t) const {
     const auto order = static_cast<std::size_t>(k);
@@ -84,10 +103,23 @@ class SymbolicGenerator {
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kGoodEnough = 1e-15;  ///< relative error of psi^-1 that no other form improves much
+  static constexpr std::size_t kRemembered = 1021;
   enum class Inverse { formula, numeric };
 
   template <class T>
   using Real = std::remove_cvref_t<decltype(T().value)>;
+
+  template <class T>
+  struct Remembered {
+    std::uint64_t generator = 0;  ///< its id_; 0 is no generator's
+    Real<T> u = 0;
+    std::pair<T, T> margin;
+  };
+
+  static std::uint64_t next_id() {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+  }
 
   template <class T>
   static T unknown() {
@@ -164,6 +196,7 @@ class SymbolicGenerator {
   template <class T>
   [[nodiscard]] std::optional<bool> inverse_agrees(bool near_one) const;
 
+  std::uint64_t id_ = next_id();  ///< shared by copies, which are the same generator
   std::shared_ptr<const GeneratorFormula> formula_;
   std::vector<const SplitTape*> derivatives_;
   std::shared_ptr<const PerPrecision<PreparedFormula>> prepared_;
