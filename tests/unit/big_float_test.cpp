@@ -46,7 +46,8 @@ TEST(BigFloat, CopiesAndMovesKeepTheirDigits) {
       for (int i = 1; i < 20; ++i) values.push_back(BigFloat(1) / i);  // moves as it grows
     }
     BigFloat copy = values[2];
-    copy = copy;  // NOLINT: on purpose
+    const BigFloat& itself = copy;
+    copy = itself;
     BigFloat moved = std::move(values[2]);
     values[2] = moved;
     std::swap(values[0], values[1]);
