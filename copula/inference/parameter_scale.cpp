@@ -8,6 +8,7 @@ namespace sklar {
 namespace {
 
 constexpr int kLatticePoints = 33;
+constexpr double kShort = 1e-10;     ///< relative distance kept from an open end, where a formula may overflow
 constexpr double kLatticeEnd = 3.0;  ///< |z| = 3 is |tau| = 0.995
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -17,6 +18,15 @@ double nearest(double theta, const Interval& domain) {
   const double lowest = domain.lowest_included ? domain.lowest : std::nextafter(domain.lowest, kInfinity);
   const double highest = domain.highest_included ? domain.highest : std::nextafter(domain.highest, -kInfinity);
   return std::clamp(theta, lowest, highest);
+}
+
+/// Where the search ends: at an end of the domain, short of one that does not belong to it, or far out.
+Interval searched(const Interval& domain) {
+  const auto short_of = [](double end) { return kShort * std::max(1.0, std::abs(end)); };
+  const double lowest = std::max(domain.lowest, -ParameterScale::kLargestTheta);
+  const double highest = std::min(domain.highest, ParameterScale::kLargestTheta);
+  return {domain.lowest_included ? lowest : lowest + short_of(lowest),
+          domain.highest_included ? highest : highest - short_of(highest)};
 }
 
 double to_theta(double z, const Interval& domain) {
@@ -49,8 +59,8 @@ ParameterScale::ParameterScale(const FamilyInfo& family, int dim)
     return;
   }
   for (const Interval& domain : domain_) {
-    box_.lower.push_back(to_z(std::max(domain.lowest, -kLargestTheta), domain));
-    box_.upper.push_back(to_z(std::min(domain.highest, kLargestTheta), domain));
+    box_.lower.push_back(to_z(searched(domain).lowest, domain));
+    box_.upper.push_back(to_z(searched(domain).highest, domain));
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 using test::Digits;
 using test::PsiReference;
 
-constexpr int kDigits = 60;
+constexpr int kDigits = 400;  // 1 - v of the smallest v
 constexpr double kLargestTheta = 1e4;
 constexpr double kLogBound = 1e-13;      // |v - e| / max(1, |e|)
 constexpr double kHBound = 1e-13;        // |ln v - ln e| / max(1, |ln e| / 20)
@@ -83,7 +83,8 @@ double inverse_share(const PsiReference& reference, const Cell& cell, double val
   const auto h = reference.conditional(given, v);
   const Digits miss = abs(h.value - p), slope = h.slope * value;
   const Digits relative = miss / (slope * kInverseBound);
-  const Digits best = miss / (1e-14 * p + 4 * std::numeric_limits<double>::epsilon() * slope);
+  const Digits rounding = larger(4 * std::numeric_limits<double>::epsilon() * value, Digits(kSmallestDouble));
+  const Digits best = miss / (1e-14 * p + rounding * h.slope);
   const Digits least = relative < best ? relative : best;
   if (least <= 1) return static_cast<double>(least);
   for (double share = 0x1p-6; share < 1e12; share *= 2) {
