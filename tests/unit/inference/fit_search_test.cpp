@@ -30,7 +30,9 @@ class FormulaCopula final : public Copula {
   }
   void log_cdf_into(const PointsRef&, const Reflection&, ColumnOut out) const override { out = std::nan(""); }
   void conditional_into(const PointsRef&, const Reflection&, Tail, ColumnOut out) const override { out = std::nan(""); }
-  void conditional_inverse_into(const PointsRef&, const Reflection&, Tail, ColumnOut out) const override { out = std::nan(""); }
+  void conditional_inverse_into(const PointsRef&, const Reflection&, Tail, ColumnOut out) const override {
+    out = std::nan("");
+  }
 
   LogDensity log_density_;
   Theta theta_;
