@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "copula/archimedean_copula.hpp"
+#include "copula/first_answer.hpp"
 #include "copula/generator.hpp"
 #include "copula/generic_route.hpp"
 #include "copula/row.hpp"
@@ -194,21 +195,13 @@ class Archimedean final : public ArchimedeanCopula {
   // kernel<T>() in the first number type whose error bound `accept` finds small enough.
   template <class Kernel, class Accept>
   static double resolve(const Kernel& kernel, const Accept& accept) {
-    if (const auto answer = accept(kernel.template operator()<Narrow>())) return *answer;
-    if (const auto answer = accept(kernel.template operator()<Extended>())) return *answer;
-    for (int digits = kFirstDigits; digits <= kLastDigits; digits *= 2) {
-      const WorkingPrecision precision(digits);
-      if (const auto answer = accept(kernel.template operator()<Widest>())) return *answer;
-    }
-    return std::numeric_limits<double>::quiet_NaN();
+    const auto answer = first_answer([&]<class T>() { return accept(kernel.template operator()<T>()); });
+    return answer.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
   template <class Real>
   static std::optional<double> accept_log(const Bounded<Real>& x) {
-    using std::abs, std::isfinite;
-    const Real size = abs(x.value);
-    if (!isfinite(x.error) || !(x.error <= kLogTolerance * (size > 1 ? size : Real(1)))) return std::nullopt;
-    return static_cast<double>(x.value);
+    return if_within(kLogTolerance, x);
   }
 
   static constexpr long double kResolution = 0x1p-1080L;  // far below the smallest double; 0 as a double

@@ -5,7 +5,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
-#include "copula/symbolic/first_answer.hpp"
+#include "copula/first_answer.hpp"
 
 namespace sklar::symbolic {
 
@@ -20,10 +20,12 @@ constexpr double kLatticeTolerance = 1e-9;  // differences of tau that say nothi
 /// -t psi'(t) at psi(t) = u, which tends to 0 at both ends.
 double minus_t_slope(const SymbolicGenerator& generator, double u) {
   if (!(u > 0 && u < 1)) return 0;
-  const auto value = first_answer([&]<class T>() {
-    const T t = generator.psi_inv(T(u));
-    return if_within(kTauTolerance, t * exp(generator.log_abs_dpsi(1, t)));
-  });
+  const auto value = first_answer(
+      [&]<class T>() {
+        const T t = generator.psi_inv(T(u));
+        return if_within(kTauTolerance, t * exp(generator.log_abs_dpsi(1, t)));
+      },
+      kFirstDigits);
   return value.value_or(kNaN);
 }
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "copula/error.hpp"
-#include "copula/symbolic/first_answer.hpp"
+#include "copula/first_answer.hpp"
 
 namespace sklar::symbolic {
 
@@ -46,7 +46,8 @@ class Check {
  private:
   /// NaN where it is not resolved.
   [[nodiscard]] double log_psi(double t) const {
-    const auto value = first_answer([&]<class T>() { return if_within(1e-15, generator_.log_psi(T(t))); });
+    const auto value =
+        first_answer([&]<class T>() { return if_within(1e-15, generator_.log_psi(T(t))); }, kFirstDigits);
     return value.value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
@@ -55,13 +56,16 @@ class Check {
   [[nodiscard]] bool vanishes() const {
     const Narrow limit = generator_.log_psi(Narrow(kInfinity));
     if (std::isfinite(limit.error)) return limit.value == -kInfinity;
-    const auto falls = first_answer([this]<class T>() -> std::optional<bool> {
-      const T far = generator_.log_psi(exp(T(kFarLogT)));
-      const T half_way = generator_.log_psi(exp(T(kFarLogT / 2)));
-      using std::isfinite;
-      if (!isfinite(far.error) || !isfinite(half_way.error)) return std::nullopt;
-      return far.value + far.error < kLogVanishing || far.value + far.error < 1.05 * (half_way.value - half_way.error);
-    });
+    const auto falls = first_answer(
+        [this]<class T>() -> std::optional<bool> {
+          const T far = generator_.log_psi(exp(T(kFarLogT)));
+          const T half_way = generator_.log_psi(exp(T(kFarLogT / 2)));
+          using std::isfinite;
+          if (!isfinite(far.error) || !isfinite(half_way.error)) return std::nullopt;
+          return far.value + far.error < kLogVanishing ||
+                 far.value + far.error < 1.05 * (half_way.value - half_way.error);
+        },
+        kFirstDigits);
     return falls.value_or(false);
   }
 
@@ -81,11 +85,13 @@ class Check {
   }
 
   void require_sign(int order, double t) const {
-    const auto found = first_answer([&]<class T>() -> std::optional<double> {
-      const auto [sign, log_abs] = generator_.signed_derivative(order, T(t));
-      if (sign == SymbolicGenerator::kUnknownSign) return std::nullopt;
-      return sign * std::max(static_cast<double>(exp(log_abs).value), std::numeric_limits<double>::denorm_min());
-    });
+    const auto found = first_answer(
+        [&]<class T>() -> std::optional<double> {
+          const auto [sign, log_abs] = generator_.signed_derivative(order, T(t));
+          if (sign == SymbolicGenerator::kUnknownSign) return std::nullopt;
+          return sign * std::max(static_cast<double>(exp(log_abs).value), std::numeric_limits<double>::denorm_min());
+        },
+        kFirstDigits);
     if (!found || *found == 0 || (*found > 0) == (order % 2 == 0)) return;
     const std::string k = std::to_string(order);
     refuse("(-1)^" + k + " psi^(" + k + ")(t) must not be negative, found psi^(" + k + ")(" + to_text(t) +

@@ -1,6 +1,7 @@
 #include "copula/symbolic/log_density_gradient.hpp"
 
 #include "copula/error.hpp"
+#include "copula/first_answer.hpp"
 #include "copula/symbolic/log_form.hpp"
 #include "copula/symbolic/parser.hpp"
 #include "copula/symbolic/symbolic_generator.hpp"
@@ -61,29 +62,21 @@ class RowGradient {
         parameters_(theta.size()),
         prepared_(&at_sum, &at_margins, theta) {}
 
-  void operator()(std::span<const double> u, std::span<double> out) const {
-    if (fill<Narrow>(u, out) || fill<Extended>(u, out)) return;
-    for (int digits = kFirstDigits; digits <= kLastDigits; digits *= 2) {
-      const WorkingPrecision precision(digits);
-      if (fill<Widest>(u, out)) return;
-    }
-    std::fill(out.begin(), out.end(), std::numeric_limits<double>::quiet_NaN());
+  /// NaN where no number type resolves all entries.
+  [[nodiscard]] std::vector<double> operator()(std::span<const double> u) const {
+    const auto found = first_answer([&]<class T>() { return resolved(evaluate<T>(u)); });
+    return found.value_or(std::vector<double>(parameters_, std::numeric_limits<double>::quiet_NaN()));
   }
 
  private:
-  /// Whether T resolves all entries.
   template <class T>
-  bool fill(std::span<const double> u, std::span<double> out) const {
-    const std::vector<T> gradient = evaluate<T>(u);
-    for (std::size_t j = 0; j < out.size(); ++j) {
-      using std::abs, std::isfinite;
-      const auto size = abs(gradient[j].value);
-      if (!isfinite(gradient[j].error) || !(gradient[j].error <= kTolerance * (size > 1 ? size : size * 0 + 1))) {
-        return false;
-      }
-      out[j] = static_cast<double>(gradient[j].value);
+  static std::optional<std::vector<double>> resolved(const std::vector<T>& gradient) {
+    std::vector<double> values;
+    for (const T& entry : gradient) {
+      if (!is_within(kTolerance, entry)) return std::nullopt;
+      values.push_back(static_cast<double>(entry.value));
     }
-    return true;
+    return values;
   }
 
   template <class T>
@@ -130,11 +123,11 @@ Points LogDensityGradient::operator()(const Theta& theta, const PointsRef& u) co
   }
   const RowGradient gradient(psi_, at_sum_, at_margins_, theta);
   Points result(u.rows(), static_cast<Index>(theta.size()));
-  std::vector<double> row(static_cast<std::size_t>(dim_)), out(theta.size());
+  std::vector<double> row(static_cast<std::size_t>(dim_));
   for (Index i = 0; i < u.rows(); ++i) {
     for (Index k = 0; k < dim_; ++k) row[static_cast<std::size_t>(k)] = u(i, k);
-    gradient(row, out);
-    for (Index j = 0; j < result.cols(); ++j) result(i, j) = out[static_cast<std::size_t>(j)];
+    const std::vector<double> entries = gradient(row);
+    for (Index j = 0; j < result.cols(); ++j) result(i, j) = entries[static_cast<std::size_t>(j)];
   }
   return result;
 }

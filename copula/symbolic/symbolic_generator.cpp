@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "copula/error.hpp"
-#include "copula/symbolic/first_answer.hpp"
+#include "copula/first_answer.hpp"
 
 namespace sklar::symbolic {
 
@@ -31,7 +31,7 @@ SymbolicGenerator::SymbolicGenerator(std::shared_ptr<const GeneratorFormula> for
 // near_zero takes exponents for positive, and psi(0) for 1.
 void SymbolicGenerator::choose_near_zero() {
   if (formula_->log_psi_near_zero() == nullptr) return;
-  use_near_zero_ = first_answer([this]<class T>() { return near_zero_agrees<T>(); }).value_or(false);
+  use_near_zero_ = first_answer([this]<class T>() { return near_zero_agrees<T>(); }, kFirstDigits).value_or(false);
 }
 
 template <class T>
@@ -49,7 +49,7 @@ std::optional<bool> SymbolicGenerator::near_zero_agrees() const {
 void SymbolicGenerator::choose_inverse(const std::string& subject) {
   if (formula_->inverse() == nullptr) return;
   const auto agrees = [this](bool near_one) {
-    return first_answer([this, near_one]<class T>() { return inverse_agrees<T>(near_one); });
+    return first_answer([this, near_one]<class T>() { return inverse_agrees<T>(near_one); }, kFirstDigits);
   };
   const std::optional<bool> is_inverse = agrees(false);
   if (is_inverse == true) {
