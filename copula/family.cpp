@@ -17,6 +17,14 @@ std::string Interval::to_text() const {
          sklar::to_text(highest) + (highest_included && std::isfinite(highest) ? "]" : ")");
 }
 
+bool FamilyInfo::admits(int dim, const Theta& theta) const {
+  if (theta.size() != parameters.size()) return false;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    if (!parameters[i].domain(dim).contains(theta[i])) return false;
+  }
+  return true;
+}
+
 void FamilyInfo::require_admissible(int dim, const Theta& theta) const {
   if (dim < 2) throw std::invalid_argument(name + ": dimension must be 2 or more, got " + std::to_string(dim));
   if (theta.size() != parameters.size()) {

@@ -49,6 +49,9 @@ struct FamilyInfo {
   /// value, dimension and the admissible interval.
   [[nodiscard]] CopulaPtr make(int dim, const Theta& theta) const;
 
+  /// Whether theta has one value a parameter, each in its domain.
+  [[nodiscard]] bool admits(int dim, const Theta& theta) const;
+
   /// Throws as make does.
   void require_admissible(int dim, const Theta& theta) const;
 

@@ -13,18 +13,11 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-bool admissible(const FamilyInfo& family, int dim, const Theta& theta) {
-  for (std::size_t i = 0; i < theta.size(); ++i) {
-    if (!family.parameters[i].domain(dim).contains(theta[i])) return false;
-  }
-  return true;
-}
-
 /// Whether any example admissible in the dimension has tail dependence.
 TailDependence strongest_tails(const FamilyInfo& family, int dim) {
   TailDependence strongest{0, 0};
   for (const Theta& theta : family.examples) {
-    if (!admissible(family, dim, theta)) continue;
+    if (!family.admits(dim, theta)) continue;
     const TailDependence tails = family.tails(theta);
     strongest = {std::max(strongest.lower, tails.lower), std::max(strongest.upper, tails.upper)};
   }

@@ -57,11 +57,7 @@ std::string domains(const FamilyInfo& family) {
 std::string dependence(const FamilyInfo& family) {
   std::string text = "| parameters | Kendall's tau | lower tail | upper tail |\n| --- | --- | --- | --- |\n";
   for (const Theta& theta : family.examples) {
-    bool admissible = true;
-    for (std::size_t i = 0; i < theta.size(); ++i) {
-      admissible = admissible && family.parameters[i].domain(2).contains(theta[i]);
-    }
-    if (!admissible) continue;
+    if (!family.admits(2, theta)) continue;
     const TailDependence tails = family.tails(theta);
     text += "| " + rounded(theta) + " | " + rounded(family.tau(theta)) + " | " + rounded(tails.lower) + " | " +
             rounded(tails.upper) + " |\n";

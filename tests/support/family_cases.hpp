@@ -24,20 +24,13 @@ struct FamilyCase {
   }
 };
 
-inline bool admissible(const FamilyInfo& family, int dim, const Theta& theta) {
-  for (std::size_t i = 0; i < theta.size(); ++i) {
-    if (!family.parameters[i].domain(dim).contains(theta[i])) return false;
-  }
-  return true;
-}
-
 /// Every family x dimension x admissible example.
 inline std::vector<FamilyCase> family_cases(const std::vector<int>& dims) {
   std::vector<FamilyCase> cases;
   for (const FamilyInfo& family : families::all()) {
     for (const int dim : dims) {
       for (const Theta& theta : family.examples) {
-        if (admissible(family, dim, theta)) cases.push_back({&family, dim, theta});
+        if (family.admits(dim, theta)) cases.push_back({&family, dim, theta});
       }
     }
   }

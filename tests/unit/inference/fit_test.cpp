@@ -132,7 +132,7 @@ TEST(TauInversion, HasTheTauOfTheDataOrTheNearest) {
       EXPECT_FALSE(test_case.family->tau_range(test_case.dim).contains(tau)) << test_case.name();
       EXPECT_FALSE(result.message.empty());
     }
-    EXPECT_TRUE(test::admissible(*test_case.family, test_case.dim, result.theta));
+    EXPECT_TRUE(test_case.family->admits(test_case.dim, result.theta));
   }
 }
 
