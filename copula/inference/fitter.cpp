@@ -5,7 +5,6 @@
 
 #include "copula/error.hpp"
 #include "copula/inference/information.hpp"
-#include "copula/inference/score.hpp"
 
 namespace sklar {
 namespace {
@@ -96,10 +95,9 @@ void Fitter::set_likelihood(double log_likelihood, double total_weight) {
   result_.bic = k * std::log(total_weight) - 2 * log_likelihood;
 }
 
-void Fitter::add_standard_errors(const PointsRef& u, const ColumnRef& weights) {
+void Fitter::add_standard_errors(const Score& score) {
   if (result_.status != FitStatus::converged) return;
   constexpr double kStep = 1e-4;  // of z: the information is off by its square, and by rounding over it
-  const SampleScore score(family_, u, weights, chunking());
   result_.standard_error = standard_errors(score, result_.theta, scale_.domain(), theta_steps(kStep));
 }
 

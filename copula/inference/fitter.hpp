@@ -46,7 +46,7 @@ class Fitter {
   void set_likelihood(double log_likelihood, double total_weight);
 
   /// Records the standard errors of a converged search for the maximum of the likelihood.
-  void add_standard_errors(const PointsRef& u, const ColumnRef& weights);
+  void add_standard_errors(const Score& score);
 
  private:
   [[nodiscard]] std::vector<double> best_of_lattice(const Objective& objective) const;
