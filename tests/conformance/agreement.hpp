@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "copula/error.hpp"
+#include "tests/conformance/family_test.hpp"
 #include "tests/support/psi_reference.hpp"
 
 namespace sklar::test {
@@ -52,6 +53,29 @@ testing::AssertionResult is_inverse(const Conditional& h_at, double p, bool uppe
   const auto h = h_at(v);
   const Digits eps = std::numeric_limits<double>::epsilon();
   return verdict(abs(h.value - p) <= 1e-14 * p + 4 * eps * value * h.slope, value, Digits(p));
+}
+
+/// h, 1 - h and both inverses of each row, the last entry as v and as p. Rows whose given values are outside the
+/// support do not count. @param reference PsiReference, or what answers as it does.
+template <class Reference>
+void expect_conditionals(const Copula& copula, const Reference& reference, const Points& u) {
+  const Column h = copula.h(u), upper = copula.h_upper(u), v = copula.h_inv(u), w = copula.h_inv_upper(u);
+  for (Index i = 0; i < u.rows(); ++i) {
+    SCOPED_TRACE(row_text(u, i));
+    const std::vector<double> row = row_of(u, i);
+    const std::span<const double> given(row.data(), row.size() - 1);
+    if (given.size() > 1 && isinf(reference.log_density(given))) continue;
+    const auto expected = reference.conditional(given, Digits(row.back()));
+    EXPECT_TRUE(probability_agrees(h(i), expected.value)) << "h";
+    EXPECT_TRUE(probability_agrees(upper(i), expected.complement)) << "h_upper";
+    const auto h_at = [&](const Digits& x) { return reference.conditional(given, x); };
+    if (v(i) > 0 && v(i) < 1) {
+      EXPECT_TRUE(is_inverse(h_at, row.back(), false, v(i))) << "h_inv";
+    }
+    if (w(i) > 0 && w(i) < 1) {
+      EXPECT_TRUE(is_inverse(h_at, row.back(), true, w(i))) << "h_inv_upper";
+    }
+  }
 }
 
 }  // namespace sklar::test

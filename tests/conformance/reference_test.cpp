@@ -49,26 +49,7 @@ TEST_P(TextbookPsi, HighDimension) {
 }
 
 TEST_P(TextbookPsi, ConditionalAndItsInverse) {
-  const auto check = [](const Copula& copula, const PsiReference& reference, const Points& u) {
-    const Column h = copula.h(u), upper = copula.h_upper(u), v = copula.h_inv(u), w = copula.h_inv_upper(u);
-    for (Index i = 0; i < u.rows(); ++i) {
-      const std::vector<double> row = row_of(u, i);
-      const std::span<const double> given(row.data(), row.size() - 1);
-      if (given.size() > 1 && isinf(reference.log_density(given))) continue;  // outside the support
-      const auto expected = reference.conditional(given, Digits(row.back()));
-      EXPECT_TRUE(probability_agrees(h(i), expected.value)) << "h" << row_text(u, i);
-      EXPECT_TRUE(probability_agrees(upper(i), expected.complement)) << "h_upper" << row_text(u, i);
-      const double p = row.back();
-      const auto h_at = [&](const Digits& x) { return reference.conditional(given, x); };
-      if (v(i) > 0 && v(i) < 1) {
-        EXPECT_TRUE(is_inverse(h_at, p, false, v(i))) << row_text(u, i);
-      }
-      if (w(i) > 0 && w(i) < 1) {
-        EXPECT_TRUE(is_inverse(h_at, p, true, w(i))) << row_text(u, i);
-      }
-    }
-  };
-  for_each_case(cases({2, 3, 5}), 5, check);
+  for_each_case(cases({2, 3, 5}), 5, expect_conditionals<PsiReference>);
 }
 
 TEST_P(TextbookPsi, SubnormalProbabilitiesAreTheNearestDoubles) {

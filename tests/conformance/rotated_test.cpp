@@ -85,24 +85,7 @@ TEST_P(RotatedFamily, LogDensityAndCdf) {
 }
 
 TEST_P(RotatedFamily, ConditionalAndItsInverse) {
-  for_each_rotation(cases({2, 3}), [](const Copula& copula, const RotatedReference& reference, const Points& u) {
-    const Column h = copula.h(u), upper = copula.h_upper(u), v = copula.h_inv(u), w = copula.h_inv_upper(u);
-    for (Index i = 0; i < u.rows(); ++i) {
-      const std::vector<double> row = row_of(u, i);
-      const std::span<const double> given(row.data(), row.size() - 1);
-      if (given.size() > 1 && isinf(reference.log_density(given))) continue;  // outside the support
-      const auto expected = reference.conditional(given, Digits(row.back()));
-      EXPECT_TRUE(probability_agrees(h(i), expected.value)) << "h" << row_text(u, i);
-      EXPECT_TRUE(probability_agrees(upper(i), expected.complement)) << "h_upper" << row_text(u, i);
-      const auto h_at = [&](const Digits& x) { return reference.conditional(given, x); };
-      if (v(i) > 0 && v(i) < 1) {
-        EXPECT_TRUE(is_inverse(h_at, row.back(), false, v(i))) << "h_inv" << row_text(u, i);
-      }
-      if (w(i) > 0 && w(i) < 1) {
-        EXPECT_TRUE(is_inverse(h_at, row.back(), true, w(i))) << "h_inv_upper" << row_text(u, i);
-      }
-    }
-  });
+  for_each_rotation(cases({2, 3}), expect_conditionals<RotatedReference>);
 }
 
 void expect_identical(const Column& a, const Column& b) {
