@@ -116,16 +116,14 @@ struct Worst {
   long failures = 0;
   double share = 0;
   Cell cell{};
-  double value = 0;
 
-  void add(const Cell& next, double next_value, double next_share) {
+  void add(const Cell& next, double next_share) {
     ++cells;
     const bool bad = !(next_share <= 1);
     failures += bad;
     if (cells > 1 && !(next_share > share) && !(bad && share <= 1)) return;
     share = next_share;
     cell = next;
-    value = next_value;
   }
 };
 
@@ -208,7 +206,7 @@ class Sweep {
       std::fprintf(stderr, "%s %s: %s gives %.17g, %.3g of the bound\n", family_.name.c_str(), to_text(cell.quantity),
                    cell_text(cell).c_str(), value, share);
     }
-    table_[{cell.quantity, dim_range(cell.dim()), region(family_, cell)}].add(cell, value, share);
+    table_[{cell.quantity, dim_range(cell.dim()), region(family_, cell)}].add(cell, share);
   }
 
   const FamilyInfo& family_;
