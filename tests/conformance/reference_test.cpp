@@ -1,6 +1,8 @@
 /// Every quantity against digits that come from elsewhere: the textbook psi of each family in multiprecision, and the
 /// reference tables in $SKLAR_TEST_DATA/conformance.
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -49,7 +51,42 @@ TEST_P(TextbookPsi, HighDimension) {
 }
 
 TEST_P(TextbookPsi, ConditionalAndItsInverse) {
-  for_each_case(cases({2, 3, 5}), 5, expect_conditionals<PsiReference>);
+  for_each_case(cases({2, 3, 4, 5}), 5, expect_conditionals<PsiReference>);
+}
+
+/// Almost independence, of either sign if there are two, and almost the ends of the domain; 1000 for an infinite one.
+std::vector<Theta> extreme_parameters(const FamilyInfo& family, int dim) {
+  constexpr double kFar = 1000, kNear = 1e-9;
+  if (family.parameters.size() != 1) return {};
+  const Interval domain = family.parameters[0].domain(dim), taus = family.tau_range(dim);
+  std::vector<Theta> thetas;
+  for (const double end : {domain.lowest, domain.highest}) {
+    thetas.push_back({std::clamp(end, -kFar, kFar)});
+    if (!family.admits(dim, thetas.back()) || std::abs(end) <= 1) thetas.back()[0] = end * (1 - kNear);
+  }
+  for (const double tau : {-kNear, kNear}) {
+    if (taus.contains(tau)) thetas.push_back(family.from_tau(dim, tau));
+  }
+  std::erase_if(thetas, [&](const Theta& theta) { return !family.admits(dim, theta); });
+  return thetas;
+}
+
+TEST_P(TextbookPsi, ConditionalAndItsInverseAtExtremes) {
+  constexpr std::array<double, 4> kExtremes = {1e-300, 1e-12, 0.5, 1 - 1e-14};
+  constexpr Index kPoints = 8;
+  const WorkingPrecision precision(350);  // 1 - 1e-300, and room
+  Rng rng(seed_of_this_test());
+  for (const int dim : {2, 3, 4, 5}) {
+    for (const Theta& theta : extreme_parameters(family(), dim)) {
+      SCOPED_TRACE("d = " + std::to_string(dim) + ", theta = " + to_text(theta[0]));
+      Points u(kPoints, dim);
+      for (Index i = 0; i < kPoints; ++i) {
+        for (int k = 0; k < dim - 1; ++k) u(i, k) = kExtremes[rng() % kExtremes.size()];
+        u(i, dim - 1) = kExtremes[static_cast<std::size_t>(i) % kExtremes.size()];
+      }
+      expect_conditionals(*family().make(dim, theta), PsiReference(family(), theta), u);
+    }
+  }
 }
 
 TEST_P(TextbookPsi, SubnormalProbabilitiesAreTheNearestDoubles) {
