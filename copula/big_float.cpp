@@ -129,6 +129,9 @@ BigFloat abs(const BigFloat& x) {
 BigFloat sqrt(const BigFloat& x) {
   return call(mpfr_sqrt, x);
 }
+BigFloat cbrt(const BigFloat& x) {
+  return call(mpfr_cbrt, x);
+}
 BigFloat exp(const BigFloat& x) {
   return call(mpfr_exp, x);
 }

@@ -95,6 +95,7 @@ class BigFloat {
 
 [[nodiscard]] BigFloat abs(const BigFloat& x);
 [[nodiscard]] BigFloat sqrt(const BigFloat& x);
+[[nodiscard]] BigFloat cbrt(const BigFloat& x);
 [[nodiscard]] BigFloat exp(const BigFloat& x);
 [[nodiscard]] BigFloat expm1(const BigFloat& x);
 [[nodiscard]] BigFloat log(const BigFloat& x);

@@ -79,6 +79,13 @@ template <class T>
   return false;
 }
 
+/// The most that |x| may be.
+template <class T>
+[[nodiscard]] auto largest_magnitude(const T& x) {
+  using std::abs;
+  return decltype(x.value)(abs(x.value) + x.error);
+}
+
 /// Horner's rule: sum_k coefficients[k] x^k.
 template <class T>
 [[nodiscard]] T polynomial(std::span<const T> coefficients, const T& x) {

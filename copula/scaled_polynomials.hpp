@@ -188,12 +188,4 @@ struct StirlingRule {
 
 using StirlingPolynomials = ScaledPolynomials<StirlingRule>;
 
-/// z and 1 - z in [0,1] with y z (1 + y z) = p y (1 + y), y = x/w, w = 1 - x, x > -1: Li_-1 at p times its value.
-template <class T>
-[[nodiscard]] std::pair<T, T> solve_quadratic(const T& x, const T& w, const T& p) {
-  const T rest = T(1) - p;
-  const T root = sqrt(x > T(0) ? w * w + T(4) * x * p : (T(1) + x) * (T(1) + x) - T(4) * x * rest);
-  return {T(2) * p / (w + root), T(2) * rest / (T(1) + x + root)};
-}
-
 }  // namespace sklar

@@ -12,7 +12,7 @@
 ///   log c = (d+1) log(1-theta) - 2 sum log D(u_i) - log w + log R_(d+1)(x/w)
 /// For x near 1, w = (1-theta) (1 + theta Delta), Delta = sum of (1-u_i) / D(u_i) times the a before it, all terms
 /// positive. Where w is small, R_(d+1) goes like w^-d and the powers of 1 - theta cancel exactly.
-/// Given one value, h = p is a quadratic for a(v); both its root and one less the root are free of cancellation.
+/// Given one to three values, h = p has a closed solution: copula/polylogarithm_root.hpp.
 
 #include <algorithm>
 #include <limits>
@@ -20,6 +20,7 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
+#include "copula/polylogarithm_root.hpp"
 #include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
@@ -102,8 +103,9 @@ class AliMikhailHaq {
   template <class T>
   T conditional_inverse(std::span<const T> given, const T& p) const {
     const Accumulated<T> sums(*this, given);
-    if (given.size() == 1) {
-      const auto [z, distance] = solve_quadratic(sums.x, sums.w, p);
+    const int order = static_cast<int>(given.size()) + 1;
+    if (order <= kLargestPolylogarithmRoot) {
+      const auto [z, distance] = polylogarithm_root(order, sums.x, sums.w, p);
       return -log_value_at(sums, z, distance);
     }
     const auto rate = [&](const T& s) { return decrease(given.size(), sums, s, exp(-s), -expm1(-s)); };

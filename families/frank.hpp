@@ -12,6 +12,8 @@
 ///   copula/scaled_polynomials.hpp log c = (d-1) log(theta/q) + log R_d(y) - log(1-x) - theta sum u_i
 /// a near 1 is carried as its complement delta = e^(-theta u)(1 - e^(-theta(1-u)))/q; 1 - x of theta > 0 relative to
 /// its largest part, (1-x) e^(theta m) = 1 + expm1(theta m)(1 - prod_{i != m} a(u_i)), m = min u: all terms positive.
+/// Given one to four values, h = p has a closed solution: one value, a linear equation; else
+/// copula/polylogarithm_root.hpp.
 
 #include <algorithm>
 #include <limits>
@@ -19,6 +21,7 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
+#include "copula/polylogarithm_root.hpp"
 #include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
@@ -130,8 +133,9 @@ class Frank {
       return minus_log_value(p / sum, rest / sum);
     }
     const Given<T> before(*this, given);
-    if (given.size() == 2) {
-      const auto [z, distance] = solve_quadratic(before.x, before.complement, p);
+    const int order = static_cast<int>(given.size());
+    if (order <= kLargestPolylogarithmRoot) {
+      const auto [z, distance] = polylogarithm_root(order, before.x, before.complement, p);
       return minus_log_value_at(before, z, distance);
     }
     const auto rate = [&](const T& s) { return decrease(given.size(), before, s, exp(-s), -expm1(-s)); };
