@@ -9,6 +9,7 @@
 /// (the usual alternating Stirling sums lose every digit for moderate d). With x_i = -log u_i:
 ///   log c = (theta-1) sum log(x_i/s) + (sum x_i - s) + log R_d(1/s)
 /// s is taken relative to the largest x, so that sum x_i - s and log(x_i/s) do not cancel.
+/// Given one value, h = p is solved by Lambert's W: copula/lambert_w.hpp.
 
 #include <algorithm>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "copula/archimedean.hpp"
 #include "copula/family.hpp"
 #include "copula/frailty.hpp"
+#include "copula/lambert_w.hpp"
 #include "copula/scaled_polynomials.hpp"
 #include "families/independence.hpp"
 
@@ -90,6 +92,7 @@ class Gumbel {
   T conditional_inverse(std::span<const T> given, const T& p) const {
     if (count_zeros(given) > 0) return T(std::numeric_limits<double>::infinity());
     if (all_ones(given)) return T(0);
+    if (given.size() == 1) return conditional_inverse_pair(given[0], p);
     const Conditional<T> conditional(*this, given);
     const auto rate = [&](const T& log_growth) { return conditional.decrease(log_growth); };
     const T target = -log(p);
@@ -150,6 +153,17 @@ class Gumbel {
     const T log_powers = log1p(powers.value());
     const T log_stretch = log_powers / T(theta_);
     return {largest, others.value(), log_ratios.value(), log_powers, log_stretch, expm1(log_stretch)};
+  }
+
+  // l = log(s_2/s_1), x_1 (e^l - 1) + (theta-1) l = -log p, in closed form. The left side is convex and 0 at 0, so l is
+  // relatively no farther from the root than the value there from -log p.
+  template <class T>
+  T conditional_inverse_pair(const T& given, const T& p) const {
+    const T x = -log(given), theta(theta_), excess = theta - T(1), target = -log(p);
+    T l(log_lambert(x.value, excess.value, target.value), 0);
+    const T level = x * expm1(l) + excess * l;
+    l.error = largest_magnitude((level - target) / level * l);
+    return x * exp(log_expm1(theta * l) / theta);
   }
 
   // log(x / x_m) from u and m, by the difference of the two where they are near each other.

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "copula/error.hpp"
+#include "copula/lambert_w.hpp"
 #include "copula/polylogarithm_root.hpp"
 #include "tests/support/digits.hpp"
 
@@ -71,6 +72,24 @@ TEST(PolylogarithmRoot, NegativeArgumentsUpToWhereTheDerivativeEnds) {
   for (const int n : {2, 3, 4}) {
     for (const double share : {1e-290, 1e-10, 0.1, 0.9, 0.999}) {
       for (const double p : kFractions) expect_polylogarithm_root(n, share * kEnds[n - 2], p, kMost);
+    }
+  }
+}
+
+TEST(LambertW, SolvesItsEquation) {
+  constexpr double kMost = 2e-15;
+  for (const int digits : {70, 200}) {
+    const WorkingPrecision precision(digits);
+    for (const double a : {1e-300, 1e-16, 1e-3, 1.0, 40.0, 700.0}) {
+      for (const double b : {1e-15, 1e-3, 1.0, 30.0, 1e6, 1e280}) {
+        for (const double t : {1e-16, 1e-3, 0.7, 5.0, 40.0, 700.0}) {
+          const auto left = [&](const Digits& l) { return a * expm1(l) + b * l; };
+          const double l = log_lambert(a, b, t);
+          expect_root(left, t, {l, kMost * l}, kMost * 1.1);
+          const Digits wide = log_lambert(Digits(a), Digits(b), Digits(t));
+          EXPECT_LE(abs(left(wide) - t), t * 1e4 * std::numeric_limits<Digits>::epsilon()) << a << " " << b << " " << t;
+        }
+      }
     }
   }
 }
