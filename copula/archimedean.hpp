@@ -46,7 +46,9 @@ class Archimedean final : public ArchimedeanCopula {
       if (std::ranges::find(row.u, 0.0) != row.u.end()) return -kInfinity;
       return resolve(
           [&]<class T>() {
-            return row.reflection == nullptr ? log_distribution(RowOf<T>(row).all()) : log_box<T>(row);
+            const RowOf<T> in_type(row);
+            return row.reflection == nullptr ? log_distribution(in_type.all())
+                                             : log_box(in_type.all(), *row.reflection);
           },
           [](const auto& x) { return accept_log(x); });
     });
@@ -105,9 +107,9 @@ class Archimedean final : public ArchimedeanCopula {
     return 0;
   }
 
-  double psi_at_log(double x) const override {
+  double psi_at_log(double x, Tail tail) const override {
     return resolve([&]<class T>() { return generator_.log_psi(exp(T(x))); },
-                   [](const auto& log_psi) { return accept_probability(log_psi, Tail::lower, kInverseTolerance); });
+                   [tail](const auto& log_psi) { return accept_probability(log_psi, tail, kInverseTolerance); });
   }
 
   double log_radial_survival(double x) const override {
@@ -138,39 +140,36 @@ class Archimedean final : public ArchimedeanCopula {
     return log(sum);
   }
 
-  BigFloat exact_row(Quantity quantity, std::span<const double> u, int digits) const override {
-    const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
+  BigFloat exact_row(Quantity quantity, std::span<const BigFloat> u, const Reflection& reflection,
+                     int digits) const override {
     const bool conditional = quantity != Quantity::log_pdf && quantity != Quantity::log_cdf;
+    const bool complement = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
     if (conditional && (u.size() == 1 || u.back() == 0 || u.back() == 1)) {
       const WorkingPrecision precision(digits + kGuardDigits);
-      return upper ? 1 - BigFloat(u.back()) : BigFloat(u.back());
+      return complement ? 1 - u.back() : u.back();
     }
-    if (quantity == Quantity::log_cdf && std::ranges::find(u, 0.0) != u.end()) return BigFloat(-kInfinity);
-    return resolve_digits(digits, [&]() -> Widest {
-      const RowOf<Widest> row(Row{u});
-      if (quantity == Quantity::log_pdf) return log_density(row.all());
-      if (quantity == Quantity::log_cdf) return log_distribution(row.all());
+    if (quantity == Quantity::log_pdf && u.size() == 1) return 0;
+    if (quantity == Quantity::log_cdf) {
+      require_few(reflection);
+      if (std::ranges::find(u, BigFloat(0)) != u.end()) return BigFloat(-kInfinity);
+    }
+    return resolve_digits(digits, [&](int) -> Widest {
+      std::vector<Widest> row;
+      for (std::size_t k = 0; k < u.size(); ++k) {
+        row.push_back(reflection[k] ? reflected<Widest>(u[k]) : Widest(u[k], 0));
+      }
+      const std::span<const Widest> all(row);
+      if (quantity == Quantity::log_pdf) return log_density(all);
+      if (quantity == Quantity::log_cdf) return reflection.none() ? log_distribution(all) : log_box(all, reflection);
       const bool inverse = quantity == Quantity::h_inv || quantity == Quantity::h_inv_upper;
-      const Widest log_value = inverse ? -conditional_inverse(row.given(), row.last()) : log_conditional(row.all());
-      return upper ? -expm1(log_value) : exp(log_value);
+      const Widest log_value =
+          inverse ? -conditional_inverse(all.first(all.size() - 1), all.back()) : log_conditional(all);
+      return complement != reflection[u.size() - 1] ? -expm1(log_value) : exp(log_value);
     });
   }
 
   BigFloat exact_log_abs_dpsi_at(int order, double t, int digits) const override {
-    return resolve_digits(digits, [&] { return generator_.log_abs_dpsi(order, Widest(t)); });
-  }
-
-  static constexpr int kGuardDigits = 20;
-
-  // kernel() in ever more digits until so many are right.
-  template <class Kernel>
-  static BigFloat resolve_digits(int digits, const Kernel& kernel) {
-    for (int working = digits + kGuardDigits; working <= digits + kLastDigits; working *= 2) {
-      const WorkingPrecision precision(working);
-      const Widest x = kernel();
-      if (isfinite(x.error) && x.error <= pow(BigFloat(10), -digits) * abs(x.value)) return x.value;
-    }
-    return std::numeric_limits<BigFloat>::quiet_NaN();
+    return resolve_digits(digits, [&](int) { return generator_.log_abs_dpsi(order, Widest(t)); });
   }
 
   // Calls answer(row) for each row without NaN; a row with NaN gives NaN.
@@ -237,14 +236,12 @@ class Archimedean final : public ArchimedeanCopula {
     }
   }
 
-  // log P(V_i <= u_i, of the reflected i V_i >= 1 - u_i), by inclusion and exclusion over these.
+  // log P(V_i <= v_i, of the reflected i V_i >= v_i), by inclusion and exclusion over these.
   template <class T>
-  T log_box(const Row& row) const {
-    const RowOf<T> in_type(row);
+  T log_box(std::span<const T> v, const Reflection& reflection) const {
     std::vector<T> below, above;
-    for (std::size_t k = 0; k < row.u.size(); ++k) {
-      const T& value = in_type.all()[k];
-      if (!is_zero(value)) (row.is_reflected(k) ? above : below).push_back(value);
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      if (!is_zero(v[k])) (reflection[k] ? above : below).push_back(v[k]);
     }
     T sum(0);
     for (std::size_t subset = 0; subset < std::size_t{1} << above.size(); ++subset) {

@@ -7,16 +7,6 @@
 
 namespace sklar {
 
-namespace {
-
-void require_digits(int digits) {
-  if (digits >= 1 && digits <= ArchimedeanCopula::kMostDigits) return;
-  throw std::invalid_argument("exact: digits must be from 1 to " + std::to_string(ArchimedeanCopula::kMostDigits) +
-                              ", got " + std::to_string(digits));
-}
-
-}  // namespace
-
 void ArchimedeanCopula::require_derivative(int order, const ColumnRef& t) const {
   if (order < 0 || order > dim()) {
     throw std::domain_error("log_abs_dpsi: order must be 0 to " + std::to_string(dim()) + ", got " +
@@ -55,21 +45,6 @@ Column ArchimedeanCopula::kendall_cdf(const ColumnRef& v) const {
 
 Column ArchimedeanCopula::kendall_survival(const ColumnRef& v) const {
   return kendall(v, Tail::upper);
-}
-
-std::vector<BigFloat> ArchimedeanCopula::exact(Quantity quantity, const PointsRef& u, int digits) const {
-  require_digits(digits);
-  const bool joint = quantity == Quantity::log_pdf || quantity == Quantity::log_cdf;
-  require_columns("exact", "u", u.cols(), joint ? dim() : 1, dim());
-  require_unit_cube("exact", "u", u);
-  std::vector<BigFloat> values;
-  std::vector<double> row(static_cast<std::size_t>(u.cols()));
-  for (Index i = 0; i < u.rows(); ++i) {
-    for (Index k = 0; k < u.cols(); ++k) row[static_cast<std::size_t>(k)] = u(i, k);
-    values.push_back(u.row(i).isNaN().any() ? std::numeric_limits<BigFloat>::quiet_NaN()
-                                            : exact_row(quantity, row, digits));
-  }
-  return values;
 }
 
 std::vector<BigFloat> ArchimedeanCopula::exact_log_abs_dpsi(int order, const ColumnRef& t, int digits) const {

@@ -1,7 +1,9 @@
 #include "copula/copula.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "copula/error.hpp"
 
@@ -23,6 +25,12 @@ Column exponential(const Column& x) {
 
 Copula::Copula(int dim) : dim_(dim) {
   if (dim < 2) throw std::invalid_argument("a copula needs dimension 2 or more, got " + std::to_string(dim));
+}
+
+void Copula::require_digits(int digits) {
+  if (digits >= 1 && digits <= kMostDigits) return;
+  throw std::invalid_argument("exact: digits must be from 1 to " + std::to_string(kMostDigits) + ", got " +
+                              std::to_string(digits));
 }
 
 Column Copula::log_pdf(const PointsRef& u) const {
@@ -66,6 +74,14 @@ Column Copula::h_upper(const PointsRef& u) const {
   Column out(u.rows());
   conditional_into(u, {}, Tail::upper, out);
   return out;
+}
+
+Column Copula::log_conditional_pdf(const PointsRef& u) const {
+  require_points("log_conditional_pdf", u, 1, dim_);
+  Column joint(u.rows()), given = Column::Zero(u.rows());
+  log_pdf_into(u, {}, joint);
+  if (u.cols() > 1) log_pdf_into(u.leftCols(u.cols() - 1), {}, given);
+  return joint - given;
 }
 
 Column Copula::h_inv(const PointsRef& u) const {
@@ -116,6 +132,37 @@ Points Copula::sample(Index n, Rng& rng, const PointsRef& given) const {
   require_rows("sample", "given", given.rows(), 1);
   require_columns("sample", "given", given.cols(), 0, dim_ - 1);
   return inverse_rosenblatt(uniforms(rng, n, dim_ - given.cols()), given);
+}
+
+Points Copula::sample_by(Route route, Index n, Rng& rng) const {
+  if (route == Route::conditional) return sample(n, rng);
+  if (n < 1) throw std::invalid_argument("sample: n must be 1 or more, got " + std::to_string(n));
+  if (route == Route::frailty && !has_frailty()) {
+    throw std::domain_error("sample: this copula has no frailty; routes are conditional and radial");
+  }
+  Points u(n, dim_);
+  std::vector<double> row(static_cast<std::size_t>(dim_));
+  for (Index i = 0; i < n; ++i) {
+    draw(route, {}, rng, row);
+    for (Index k = 0; k < dim_; ++k) u(i, k) = row[static_cast<std::size_t>(k)];
+  }
+  return u;
+}
+
+std::vector<BigFloat> Copula::exact(Quantity quantity, const PointsRef& u, int digits) const {
+  constexpr int kDigitsOfADouble = 17;
+  require_digits(digits);
+  const bool joint = quantity == Quantity::log_pdf || quantity == Quantity::log_cdf;
+  require_points("exact", u, joint ? dim_ : 1, dim_);
+  std::vector<BigFloat> values;
+  for (Index i = 0; i < u.rows(); ++i) {
+    const WorkingPrecision precision(kDigitsOfADouble);
+    std::vector<BigFloat> row;
+    for (Index k = 0; k < u.cols(); ++k) row.emplace_back(u(i, k));
+    values.push_back(u.row(i).isNaN().any() ? std::numeric_limits<BigFloat>::quiet_NaN()
+                                            : exact_row(quantity, row, {}, digits));
+  }
+  return values;
 }
 
 }  // namespace sklar

@@ -4,12 +4,23 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "copula/big_float.hpp"
 #include "copula/random.hpp"
 #include "copula/reflection.hpp"
 #include "copula/types.hpp"
 
 namespace sklar {
+
+/// What may be asked for to any number of digits; see the functions of Copula of these names.
+enum class Quantity { log_pdf, log_cdf, h, h_upper, h_inv, h_inv_upper };
+
+/// How points are drawn. conditional: Copula::sample. frailty: psi(E_i / V) with exponential E_i, one frailty V a
+/// point, the fastest; positive dependence only. radial: psi(R S_i), S uniform on the simplex, any dependence (McNeil
+/// and Neslehova 2009, Theorem 2). The last two are those of the generator of an Archimedean copula: a rotated copula
+/// reflects such a point, a mixture draws it from one of its components.
+enum class Route { conditional, frailty, radial };
 
 /// A copula C on [0,1]^d. Accuracy of every quantity: see Archimedean (relative error of log density <= 1e-13) and
 /// Mixture.
@@ -40,6 +51,10 @@ class Copula {
   [[nodiscard]] Column h(const PointsRef& u) const;
   [[nodiscard]] Column h_upper(const PointsRef& u) const;
 
+  /// Natural log of the density of u_k given u_1..u_{k-1}, the slope of h in its last argument; 0 for k = 1.
+  /// @param u n x k in [0,1], 1 <= k <= d. @return NaN where the density of the given coordinates is 0 or infinite.
+  [[nodiscard]] Column log_conditional_pdf(const PointsRef& u) const;
+
   /// Inverse of h in its last argument: the v with h(u_1..u_{k-1}, v) = p, and 1 - v without cancellation.
   /// @param u n x k in [0,1]; the last column holds p.
   [[nodiscard]] Column h_inv(const PointsRef& u) const;
@@ -55,9 +70,27 @@ class Copula {
   /// n points by inverse_rosenblatt from the generator's uniforms. @param n >= 1. @param given 1 x g.
   [[nodiscard]] Points sample(Index n, Rng& rng, const PointsRef& given = Points(1, 0)) const;
 
+  /// n points by a route. The routes draw different points of the same distribution. @param n >= 1.
+  /// @throws std::domain_error for the frailty route where has_frailty() is false.
+  [[nodiscard]] Points sample_by(Route route, Index n, Rng& rng) const;
+
+  /// Whether every generator in it knows the distribution that it is the Laplace transform of.
+  [[nodiscard]] virtual bool has_frailty() const = 0;
+
+  /// A quantity with so many significant decimal digits right. Doubles are taken as the exact numbers they are.
+  /// @param u as for the function of that name. @param digits 1 to kMostDigits.
+  /// @return n numbers of more bits than digits need; NaN for a row with NaN, and where 2240 digits more do not do (a
+  /// value that is 0 by cancellation). @throws as the function of that name; std::invalid_argument for digits.
+  [[nodiscard]] std::vector<BigFloat> exact(Quantity quantity, const PointsRef& u, int digits) const;
+
+  static constexpr int kMostDigits = 10'000;
+
  protected:
   /// @throws std::invalid_argument unless dim >= 2.
   explicit Copula(int dim);
+
+  /// @throws std::invalid_argument for a number of digits that exact does not give.
+  static void require_digits(int digits);
 
   enum class Tail { lower, upper };  ///< the quantity itself or its complement
 
@@ -73,6 +106,11 @@ class Copula {
   virtual void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const = 0;
   virtual void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
                                         ColumnOut out) const = 0;
+  [[nodiscard]] virtual BigFloat exact_row(Quantity quantity, std::span<const BigFloat> u, const Reflection& reflection,
+                                           int digits) const = 0;
+
+  /// One point of this copula rotated. Precondition: not the conditional route; has_frailty() for that of the frailty.
+  virtual void draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const = 0;
 
   int dim_;
 };

@@ -1,6 +1,7 @@
 #pragma once
-/// The number types in turn, until one has an answer.
+/// The number types in turn, or ever more digits, until one has an answer.
 
+#include <limits>
 #include <optional>
 
 #include "copula/wide.hpp"
@@ -33,6 +34,21 @@ template <class Real>
 [[nodiscard]] std::optional<double> if_within(double tolerance, const Bounded<Real>& x) {
   if (!is_within(tolerance, x)) return std::nullopt;
   return static_cast<double>(x.value);
+}
+
+/// More digits than asked for, at first.
+inline constexpr int kGuardDigits = 20;
+
+/// answer(digits) in ever more digits, at most kLastDigits more than asked for, until so many of it are right; else
+/// NaN.
+template <class Answer>
+[[nodiscard]] BigFloat resolve_digits(int digits, const Answer& answer) {
+  for (int working = digits + kGuardDigits; working <= digits + kLastDigits; working *= 2) {
+    const WorkingPrecision precision(working);
+    const Widest x = answer(working);
+    if (isfinite(x.error) && x.error <= pow(BigFloat(10), -digits) * abs(x.value)) return x.value;
+  }
+  return std::numeric_limits<BigFloat>::quiet_NaN();
 }
 
 }  // namespace sklar

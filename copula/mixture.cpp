@@ -46,8 +46,18 @@ void require_weights(const std::vector<double>& weights, std::size_t components)
 Mixture::Mixture(std::vector<CopulaPtr> components, std::vector<double> weights)
     : Copula(common_dim(components)), components_(std::move(components)), weights_(std::move(weights)) {
   require_weights(weights_, components_.size());
-  const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
-  for (double& weight : weights_) weight /= sum;
+  total_weight_ = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+}
+
+bool Mixture::has_frailty() const {
+  return std::ranges::all_of(components_, [](const CopulaPtr& component) { return component->has_frailty(); });
+}
+
+void Mixture::draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const {
+  double rest = uniform(rng) * total_weight_;
+  std::size_t chosen = 0;
+  while (chosen + 1 < weights_.size() && rest >= weights_[chosen]) rest -= weights_[chosen++];
+  components_[chosen]->draw(route, reflection, rng, u);
 }
 
 // log sum_i w_i e^(x_i), x_i a quantity of the components. Entries by std::exp: Eigen's own depends on the row's place.
@@ -56,7 +66,7 @@ void Mixture::log_mix(LogQuantity quantity, const PointsRef& u, const Reflection
   for (Index i = 0; i < terms.cols(); ++i) {
     const auto component = static_cast<std::size_t>(i);
     (components_[component].get()->*quantity)(u, reflection, terms.col(i));
-    terms.col(i) += std::log(weights_[component]);
+    terms.col(i) += std::log(weights_[component] / total_weight_);
   }
   for (Index row = 0; row < u.rows(); ++row) {
     const double largest = terms.row(row).maxCoeff<Eigen::PropagateNaN>();

@@ -36,9 +36,9 @@ class Reflection {
   std::vector<bool> reflected_;
 };
 
-/// 1 - u for u in [0,1], its error 0 where T holds it.
-template <class T>
-[[nodiscard]] T reflected(double u) {
+/// 1 - u for u in [0,1], its error 0 where T holds it. @param u a double or, for Widest, a BigFloat.
+template <class T, class Number>
+[[nodiscard]] T reflected(const Number& u) {
   using Real = decltype(T::value);
   const Real coordinate(u), rest = Real(1) - coordinate;
   return {rest, Real(1) - rest == coordinate ? Real(0) : Real(T::operation() * rest)};  // 1 - rest is exact

@@ -39,6 +39,15 @@ void Rotated::conditional_inverse_into(const PointsRef& u, const Reflection& ref
   base_->conditional_inverse_into(u, reflection_ ^ reflection, tail, out);
 }
 
+BigFloat Rotated::exact_row(Quantity quantity, std::span<const BigFloat> u, const Reflection& reflection,
+                            int digits) const {
+  return base_->exact_row(quantity, u, reflection_ ^ reflection, digits);
+}
+
+void Rotated::draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const {
+  base_->draw(route, reflection_ ^ reflection, rng, u);
+}
+
 CopulaPtr survival_copula(CopulaPtr base) {
   const auto dim = static_cast<std::size_t>(dim_of(base));
   return std::make_shared<Rotated>(std::move(base), std::vector<bool>(dim, true));

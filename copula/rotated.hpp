@@ -17,12 +17,18 @@ class Rotated final : public Copula {
   /// @throws std::invalid_argument for another number of entries or no base.
   Rotated(CopulaPtr base, std::vector<bool> reflected);
 
+  [[nodiscard]] bool has_frailty() const override { return base_->has_frailty(); }
+
  private:
   void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override;
   void log_cdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override;
   void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const override;
   void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
                                 ColumnOut out) const override;
+
+  [[nodiscard]] BigFloat exact_row(Quantity quantity, std::span<const BigFloat> u, const Reflection& reflection,
+                                   int digits) const override;
+  void draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const override;
 
   CopulaPtr base_;
   Reflection reflection_;

@@ -1,4 +1,4 @@
-// The routes of ArchimedeanCopula::sample_by.
+// The routes of an Archimedean copula.
 
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
@@ -29,32 +29,28 @@ double find_crossing(const F& decreasing) {
 
 }  // namespace
 
-Points ArchimedeanCopula::sample_by(Route route, Index n, Rng& rng) const {
-  if (route == Route::conditional) return sample(n, rng);
-  if (n < 1) throw std::invalid_argument("sample: n must be 1 or more, got " + std::to_string(n));
-  if (route == Route::frailty && !has_frailty()) {
-    throw std::domain_error("sample: this copula has no frailty; routes are conditional and radial");
-  }
-  Points u(n, dim());
-  std::vector<double> row(static_cast<std::size_t>(dim()));
-  for (Index i = 0; i < n; ++i) {
-    route == Route::frailty ? frailty_point(rng, row) : radial_point(rng, row);
-    for (Index k = 0; k < dim(); ++k) u(i, k) = row[static_cast<std::size_t>(k)];
-  }
-  return u;
+void ArchimedeanCopula::draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const {
+  route == Route::frailty ? frailty_point(reflection, rng, u) : radial_point(reflection, rng, u);
 }
 
-void ArchimedeanCopula::frailty_point(Rng& rng, std::span<double> u) const {
+/// psi(t), or where reflected 1 - psi(t).
+double ArchimedeanCopula::coordinate(double log_t, bool reflected) const {
+  return psi_at_log(log_t, reflected ? Tail::upper : Tail::lower);
+}
+
+void ArchimedeanCopula::frailty_point(const Reflection& reflection, Rng& rng, std::span<double> u) const {
   const double log_v = log_frailty(rng);
-  for (double& value : u) value = psi_at_log(std::log(frailty::exponential(rng)) - log_v);
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    u[k] = coordinate(std::log(frailty::exponential(rng)) - log_v, reflection[k]);
+  }
 }
 
-void ArchimedeanCopula::radial_point(Rng& rng, std::span<double> u) const {
+void ArchimedeanCopula::radial_point(const Reflection& reflection, Rng& rng, std::span<double> u) const {
   const double log_survival = std::log(uniform(rng));
   const double log_r = find_crossing([&](double x) { return log_radial_survival(x) - log_survival; });
   double sum = 0;
   for (double& value : u) sum += value = frailty::exponential(rng);
-  for (double& value : u) value = psi_at_log(log_r + std::log(value / sum));
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] = coordinate(log_r + std::log(u[k] / sum), reflection[k]);
 }
 
 }  // namespace sklar

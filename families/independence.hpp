@@ -35,7 +35,9 @@ class Independence final : public ArchimedeanCopula {
 
   [[nodiscard]] bool has_frailty() const override { return true; }
   double log_frailty(Rng&) const override { return 0; }
-  double psi_at_log(double x) const override { return std::exp(-std::exp(x)); }
+  double psi_at_log(double x, Tail tail) const override {
+    return tail == Tail::lower ? std::exp(-std::exp(x)) : -std::expm1(-std::exp(x));
+  }
   void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const override {
     for (Index i = 0; i < v.size(); ++i) {
       double sum = 0, term = v(i);  // r^k e^-r / k!, r = -log v; the complement is the rest of the series
@@ -54,16 +56,16 @@ class Independence final : public ArchimedeanCopula {
     return std::log(sum) - std::exp(x);
   }
 
-  BigFloat exact_row(Quantity quantity, std::span<const double> u, int digits) const override {
+  BigFloat exact_row(Quantity quantity, std::span<const BigFloat> u, const Reflection&, int digits) const override {
     const WorkingPrecision precision(digits + 20);
     if (quantity == Quantity::log_pdf) return 0;
     if (quantity == Quantity::log_cdf) {
       BigFloat sum = 0;
-      for (const double value : u) sum += log(BigFloat(value));
+      for (const BigFloat& value : u) sum += log(value);
       return sum;
     }
     const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
-    return upper ? 1 - BigFloat(u.back()) : BigFloat(u.back());
+    return upper ? 1 - u.back() : u.back();
   }
   BigFloat exact_log_abs_dpsi_at(int, double t, int) const override { return -t; }
 

@@ -31,9 +31,7 @@ struct Options {
 };
 
 void evaluate_exactly(const Group& group, const Copula& copula, std::span<Row* const> rows, int digits) {
-  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
-  if (archimedean == nullptr) throw std::domain_error("accuracy: the copula has no generator, only standard accuracy");
-  const std::vector<BigFloat> values = group.quantity.exact(*archimedean, points_of(rows), digits);
+  const std::vector<BigFloat> values = group.quantity.exact(copula, points_of(rows), digits);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i]->value = static_cast<double>(values[i]);
     rows[i]->digits = to_text(values[i], digits);
@@ -60,14 +58,6 @@ std::string text_of(const Row& row) {
   return row.digits.empty() ? digits(row.value) : row.digits;
 }
 
-/// Density of the last coordinate at v, given those before it.
-double conditional_density(const Group& group, const Copula& copula, const Points& u) {
-  const double joint = copula.log_pdf(u)(0);
-  if (group.dim == 2) return std::exp(joint);
-  const CopulaPtr given = group.family->make(group.dim - 1, group.theta);
-  return std::exp(joint - given->log_pdf(u.leftCols(group.dim - 1))(0));
-}
-
 void judge_row(const Group& group, const Copula& copula, Row& row) {
   row.verdict = judge(group.quantity.rule, row.value, *row.expected);
   if (group.quantity.rule != Rule::inverse || row.verdict.passes() || !(row.value >= 0 && row.value <= 1)) return;
@@ -75,7 +65,7 @@ void judge_row(const Group& group, const Copula& copula, Row& row) {
   const Index last = u.cols() - 1;
   const double p = u(0, last);
   u(0, last) = row.fields[kQuantity] == "h_inv_upper" ? 1 - row.value : row.value;
-  row.best_double = is_best_double(row.value, p, copula.h(u)(0), conditional_density(group, copula, u));
+  row.best_double = is_best_double(row.value, p, copula.h(u)(0), std::exp(copula.log_conditional_pdf(u)(0)));
 }
 
 void answer(Group& group, const Options& options) {
@@ -201,7 +191,7 @@ void add_copula_table(CLI::App& parent, Common& common) {
       ->transform(CLI::CheckedTransformer(levels))
       ->default_str("standard");
   command->add_option("--digits", options->digits, "significant digits of --accuracy exact")
-      ->check(CLI::Range(1, ArchimedeanCopula::kMostDigits))
+      ->check(CLI::Range(1, Copula::kMostDigits))
       ->capture_default_str();
   command->add_option("-o", options->output, "write here, not to standard output");
   finish_command(*command, common, [options, &common] { run(*options, common.json); });

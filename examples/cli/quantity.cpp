@@ -25,7 +25,7 @@ constexpr Named kQuantities[] = {
 
 Quantity to_quantity(const Named& named) {
   const bool is_cdf = named.name == kCdf;
-  const auto exact = [which = named.exact, is_cdf](const ArchimedeanCopula& copula, const PointsRef& u, int digits) {
+  const auto exact = [which = named.exact, is_cdf](const Copula& copula, const PointsRef& u, int digits) {
     constexpr int kLargestExponent = 10;  // digits of |log C| before the point
     std::vector<BigFloat> values = copula.exact(which, u, is_cdf ? digits + kLargestExponent : digits);
     if (!is_cdf) return values;
@@ -38,10 +38,10 @@ Quantity to_quantity(const Named& named) {
 
 constexpr std::string_view kDerivative = "log_dpsi:";
 
-Column log_abs_dpsi(int order, const Copula& copula, const PointsRef& t) {
-  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
-  if (archimedean == nullptr) throw std::domain_error("log_dpsi: the copula has no generator");
-  return archimedean->log_abs_dpsi(order, t.col(0));
+const ArchimedeanCopula& archimedean(const Copula& copula) {
+  const auto* found = dynamic_cast<const ArchimedeanCopula*>(&copula);
+  if (found == nullptr) throw std::domain_error("log_dpsi: the copula is not Archimedean and has no generator");
+  return *found;
 }
 
 /// Empty unless the name is log_dpsi:k with a whole number k >= 0.
@@ -51,11 +51,12 @@ std::optional<Quantity> find_derivative(std::string_view name) {
   int order = -1;
   const auto [stop, error] = std::from_chars(name.data() + kDerivative.size(), end, order);
   if (error != std::errc() || stop != end || order < 0) return std::nullopt;
-  return Quantity{[order](const Copula& copula, const PointsRef& t) { return log_abs_dpsi(order, copula, t); },
-                  [order](const ArchimedeanCopula& copula, const PointsRef& t, int digits) {
-                    return copula.exact_log_abs_dpsi(order, t.col(0), digits);
-                  },
-                  Rule::logarithm, order};
+  return Quantity{
+      [order](const Copula& copula, const PointsRef& t) { return archimedean(copula).log_abs_dpsi(order, t.col(0)); },
+      [order](const Copula& copula, const PointsRef& t, int digits) {
+        return archimedean(copula).exact_log_abs_dpsi(order, t.col(0), digits);
+      },
+      Rule::logarithm, order};
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace sklar::cli {
 
 struct Quantity {
   std::function<Column(const Copula&, const PointsRef&)> evaluate;
-  std::function<std::vector<BigFloat>(const ArchimedeanCopula&, const PointsRef&, int digits)> exact;
+  std::function<std::vector<BigFloat>(const Copula&, const PointsRef&, int digits)> exact;
   Rule rule;
   std::optional<int> order = {};  ///< of a derivative of psi, whose argument is t, one number, instead of u
 

@@ -51,8 +51,8 @@ testing::AssertionResult is_inverse(const Conditional& h_at, double p, bool uppe
   const bool above = v + step >= 1 || h_at(Digits(v + step)).value >= p;
   if (below && above) return testing::AssertionSuccess();
   const auto h = h_at(v);
-  const Digits eps = std::numeric_limits<double>::epsilon();
-  return verdict(abs(h.value - p) <= 1e-14 * p + 4 * eps * value * h.slope, value, Digits(p));
+  const Digits place = larger(Digits(std::numeric_limits<double>::epsilon() * value), kSmallestDouble);
+  return verdict(abs(h.value - p) <= 1e-14 * p + 4 * place * h.slope, value, Digits(p));
 }
 
 /// h, 1 - h and both inverses of each row, the last entry as v and as p. Rows whose given values are outside the

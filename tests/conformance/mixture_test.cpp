@@ -5,6 +5,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include "copula/rotated.hpp"
+#include "tests/conformance/agreement.hpp"
+#include "tests/conformance/composite_reference.hpp"
 #include "tests/conformance/family_test.hpp"
 
 namespace sklar::test {
@@ -12,12 +14,47 @@ namespace {
 
 SKLAR_FAMILY_SUITE(MixtureOfFamily);
 
-/// Of a family with tau near 0.4, its survival copula and a weak Frank copula.
-CopulaPtr mixture_with(const FamilyInfo& family, const FamilyCase& next) {
+const std::vector<double> kWeights = {0.5, 0.3, 0.2};
+
+/// Of a copula, its survival copula and a weak Frank copula.
+CopulaPtr mixture_with(const FamilyCase& next) {
   const CopulaPtr own = next.copula();
-  return std::make_shared<Mixture>(std::vector{own, survival_copula(family.make(next.dim, next.theta)),
-                                               families::find("frank").make(next.dim, {1.0})},
-                                   std::vector{0.5, 0.3, 0.2});
+  return std::make_shared<Mixture>(
+      std::vector{own, survival_copula(own), families::find("frank").make(next.dim, {1.0})}, kWeights);
+}
+
+MixtureReference reference_of(const FamilyCase& next) {
+  const std::vector<bool> none(static_cast<std::size_t>(next.dim), false), all(none.size(), true);
+  return {{{*next.family, next.theta, none}, {*next.family, next.theta, all}, {families::find("frank"), {1.0}, none}},
+          kWeights};
+}
+
+TEST_P(MixtureOfFamily, LogDensityAndCdf) {
+  const WorkingPrecision precision(kCompositeDigits);
+  Rng rng(seed_of_this_test());
+  for (const FamilyCase& next : cases({2, 3})) {
+    SCOPED_TRACE(next.name());
+    const CopulaPtr mixture = mixture_with(next);
+    const MixtureReference reference = reference_of(next);
+    const Points u = extreme_points(3, next.dim, rng);
+    const Column log_pdf = mixture->log_pdf(u), log_cdf = mixture->log_cdf(u);
+    for (Index i = 0; i < u.rows(); ++i) {
+      EXPECT_TRUE(logarithm_agrees(log_pdf(i), reference.log_density(row_of(u, i)))) << "log_pdf" << row_text(u, i);
+      const Digits cdf = reference.cdf(row_of(u, i));
+      if (cdf > 1e-290) {
+        EXPECT_TRUE(logarithm_agrees(log_cdf(i), log(cdf))) << "log_cdf" << row_text(u, i);
+      }
+    }
+  }
+}
+
+TEST_P(MixtureOfFamily, ConditionalAndItsInverse) {
+  const WorkingPrecision precision(kCompositeDigits);
+  Rng rng(seed_of_this_test());
+  for (const FamilyCase& next : cases({2, 3})) {
+    SCOPED_TRACE(next.name());
+    expect_conditionals(*mixture_with(next), reference_of(next), extreme_points(2, next.dim, rng));
+  }
 }
 
 Column quantity(const Copula& copula, int which, const Points& u) {
@@ -58,7 +95,7 @@ TEST_P(MixtureOfFamily, ABatchDoesNotDependOnItsOtherRows) {
   Rng rng(seed_of_this_test());
   for (const FamilyCase& next : cases_near(0.4, {2, 3})) {
     SCOPED_TRACE(next.name());
-    const CopulaPtr mixture = mixture_with(family(), next);
+    const CopulaPtr mixture = mixture_with(next);
     Points u = hard_points(12, next.dim, rng);
     u(3, 0) = std::nan("");
     for (int which = 0; which < 6; ++which) {
@@ -76,7 +113,7 @@ TEST_P(MixtureOfFamily, DensityIntegratesToTheConditional) {
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
   for (const FamilyCase& next : cases_near(0.4, {2, 3})) {
     SCOPED_TRACE(next.name());
-    const CopulaPtr mixture = mixture_with(family(), next);
+    const CopulaPtr mixture = mixture_with(next);
     Points u = Points::Constant(1, next.dim, 0.3);
     const auto pdf_at = [&](double v) {
       u(0, next.dim - 1) = v;
@@ -99,7 +136,7 @@ TEST_P(MixtureOfFamily, InverseOfTheConditional) {
   Rng rng(seed_of_this_test());
   for (const FamilyCase& next : cases_near(0.4, {2, 3})) {
     SCOPED_TRACE(next.name());
-    const CopulaPtr mixture = mixture_with(family(), next);
+    const CopulaPtr mixture = mixture_with(next);
     std::vector<bool> last(static_cast<std::size_t>(next.dim), false);
     last.back() = true;
     const CopulaPtr reflected = std::make_shared<Rotated>(mixture, last);  // takes 1 - v
@@ -130,7 +167,7 @@ TEST_P(MixtureOfFamily, DrawsFillCellsAsTheCdfSays) {
   const std::vector<double> edges = {0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1};
   const auto n = static_cast<Index>(edges.size()) - 1;
   const FamilyCase next = cases_near(0.4, {2}).front();
-  const CopulaPtr mixture = mixture_with(family(), next);
+  const CopulaPtr mixture = mixture_with(next);
   std::vector<double> observed(static_cast<std::size_t>(n * n)), expected(observed.size());
   const auto cdf = [&](Index i, Index j) {
     Points corner(1, 2);

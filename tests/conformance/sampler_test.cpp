@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "copula/archimedean_copula.hpp"
 #include "copula/inference/dependence.hpp"
+#include "copula/mixture.hpp"
+#include "copula/rotated.hpp"
 #include "tests/conformance/family_test.hpp"
 
 namespace sklar::test {
@@ -90,15 +91,8 @@ class Cells {
 
 /// Every route that the copula has.
 std::vector<Route> routes(const Copula& copula) {
-  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
-  if (archimedean == nullptr) return {Route::conditional};
-  if (!archimedean->has_frailty()) return {Route::conditional, Route::radial};
+  if (!copula.has_frailty()) return {Route::conditional, Route::radial};
   return {Route::conditional, Route::frailty, Route::radial};
-}
-
-Points draw(const Copula& copula, Route route, Index n, Rng& rng) {
-  if (route == Route::conditional) return copula.sample(n, rng);
-  return dynamic_cast<const ArchimedeanCopula&>(copula).sample_by(route, n, rng);
 }
 
 Cells cells_of(int dim) {
@@ -112,7 +106,8 @@ Cells cells_of(int dim) {
 
 class Draws {
  public:
-  explicit Draws(const FamilyCase& next) : copula_(next.copula()), name_(next.name()), cells_(cells_of(next.dim)) {
+  Draws(CopulaPtr copula, std::string name)
+      : copula_(std::move(copula)), name_(std::move(name)), cells_(cells_of(copula_->dim())) {
     expected_ = cells_.probabilities(*copula_);
     EXPECT_NEAR(std::accumulate(expected_.begin(), expected_.end(), 0.0), 1, 1e-12);
     for (double& mass : expected_) mass = std::max(mass, 0.0) * static_cast<double>(kDraws);
@@ -120,7 +115,7 @@ class Draws {
 
   void expect_distribution(Route route, Rng& rng) const {
     SCOPED_TRACE(route == Route::conditional ? "conditional" : route == Route::frailty ? "frailty" : "radial");
-    const Points u = draw(*copula_, route, kDraws, rng);
+    const Points u = copula_->sample_by(route, kDraws, rng);
     std::vector<double> observed(cells_.count());
     for (Index i = 0; i < kDraws; ++i) ++observed[cells_.index(u, i)];
     expect_chi_square(observed, expected_, test_count(), name_);
@@ -148,8 +143,26 @@ TEST_P(Sampler, EveryRouteFollowsTheCellProbabilities) {
   for (const int dim : {2, 3, 5}) {
     for (const FamilyCase& next : weak_medium_strong(family(), dim)) {
       SCOPED_TRACE(next.name());
-      const Draws draws(next);
+      const Draws draws(next.copula(), next.name());
       for (const Route route : routes(draws.copula())) draws.expect_distribution(route, rng);
+    }
+  }
+}
+
+TEST_P(Sampler, RoutesOfRotationsAndMixtures) {
+  Rng rng(seed_of_this_test());
+  for (const FamilyCase& next : cases_near(0.4, {2, 3})) {
+    SCOPED_TRACE(next.name());
+    std::vector<bool> first(static_cast<std::size_t>(next.dim), false);
+    first.front() = true;
+    const CopulaPtr rotated = std::make_shared<Rotated>(next.copula(), first);
+    const CopulaPtr mixture =
+        std::make_shared<Mixture>(std::vector{rotated, survival_copula(next.copula())}, std::vector{0.3, 0.7});
+    for (const CopulaPtr& copula : {rotated, mixture}) {
+      const Draws draws(copula, next.name());
+      for (const Route route : routes(*copula)) {
+        if (route != Route::conditional) draws.expect_distribution(route, rng);
+      }
     }
   }
 }
@@ -162,7 +175,7 @@ TEST_P(Sampler, NoDrawWhereTheDensityIs0) {
       SCOPED_TRACE(next.name());
       const CopulaPtr copula = next.copula();
       for (const Route route : routes(*copula)) {
-        const Points u = draw(*copula, route, kDraws / 10, rng);
+        const Points u = copula->sample_by(route, kDraws / 10, rng);
         const Column log_pdf = copula->log_pdf((u * (1 + 4e-16)).min(1 - 0x1p-53));
         EXPECT_TRUE((log_pdf > -std::numeric_limits<double>::infinity()).all()) << static_cast<int>(route);
       }
@@ -180,7 +193,7 @@ TEST_P(Sampler, RoutesHaveTheTauAndTheMargins) {
       const CopulaPtr copula = next.copula();
       for (const Route route : routes(*copula)) {
         const Index n = dim == 2 ? kPoints : std::max(kPoints / 80, Index{250});
-        const Points u = draw(*copula, route, n, rng);
+        const Points u = copula->sample_by(route, n, rng);
         // The standard error of tau is at most sqrt(2 (1 - tau^2) / n).
         const double error = std::sqrt(2 * (1 - next.tau() * next.tau()) / static_cast<double>(n));
         EXPECT_NEAR(kendall_tau(u.col(0), u.col(dim - 1)), next.tau(), 4 * error) << static_cast<int>(route);

@@ -23,6 +23,13 @@ class LogOfFirst final : public Copula {
   void conditional_inverse_into(const PointsRef& u, const Reflection&, Tail, ColumnOut out) const override {
     first(u, out);
   }
+  bool has_frailty() const override { return false; }
+  BigFloat exact_row(Quantity, std::span<const BigFloat> u, const Reflection&, int) const override {
+    return log(u.front());
+  }
+  void draw(Route, const Reflection&, Rng& rng, std::span<double> u) const override {
+    for (double& value : u) value = uniform(rng);
+  }
 };
 
 TEST(Copula, ValuesReachZeroInfinityAndSubnormals) {

@@ -33,6 +33,11 @@ class FormulaCopula final : public Copula {
   void conditional_inverse_into(const PointsRef&, const Reflection&, Tail, ColumnOut out) const override {
     out = std::nan("");
   }
+  bool has_frailty() const override { return false; }
+  BigFloat exact_row(Quantity, std::span<const BigFloat>, const Reflection&, int) const override {
+    return std::nan("");
+  }
+  void draw(Route, const Reflection&, Rng&, std::span<double> u) const override { std::ranges::fill(u, std::nan("")); }
 
   LogDensity log_density_;
   Theta theta_;
