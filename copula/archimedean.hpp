@@ -236,7 +236,7 @@ class Archimedean final : public ArchimedeanCopula {
     }
   }
 
-  // log P(V_i <= v_i, of the reflected i V_i >= v_i), by inclusion and exclusion over these.
+  // log P(V_i <= v_i, of the reflected i V_i >= v_i), by inclusion and exclusion over these or between two bounds.
   template <class T>
   T log_box(std::span<const T> v, const Reflection& reflection) const {
     std::vector<T> below, above;
@@ -253,7 +253,31 @@ class Archimedean final : public ArchimedeanCopula {
       const T value = corner.empty() ? T(1) : exp(log_distribution(std::span<const T>(corner)));
       sum += odd ? -value : value;
     }
-    return log(sum);
+    const T log_sum = log(sum);
+    if (above.empty() || is_within(kLogTolerance, log_sum)) return log_sum;
+    const T between = log_box_between(below, above);
+    return between.error < log_sum.error ? between : log_sum;
+  }
+
+  // Where those terms cancel, for m values above: the integral of |psi^(m)| over a box of sides e_i = psi^-1(v_i),
+  // along the sum of the coordinates, from r = sum psi^-1 of the values below. |psi^(m)| decreases: for m < d, and for
+  // a Laplace transform.
+  template <class T>
+  T log_box_between(const std::vector<T>& below, const std::vector<T>& above) const {
+    using Real = decltype(T::value);
+    const int m = static_cast<int>(above.size());
+    if (m == dim() && !has_frailty()) return {Real(0), T::unknown()};
+    T r(0), sides(0), log_volume(0);
+    for (const T& value : below) r += generator_.psi_inv(value);
+    for (const T& value : above) {
+      const T side = generator_.psi_inv(value);
+      sides += side;
+      log_volume += log(side);
+    }
+    const T most = log_volume + generator_.log_abs_dpsi(m, r),
+            least = log_volume + generator_.log_abs_dpsi(m, r + sides);
+    const T apart = abs(most - least);
+    return {least.value, Real(least.error + apart.value + apart.error)};
   }
 
   template <class T>

@@ -124,6 +124,23 @@ TEST_P(RotatedFamily, BoundaryIsThatOfTheBase) {
   }
 }
 
+// The terms of inclusion and exclusion agree to thousands of digits.
+TEST(Rotated, CdfWhereItsTermsCancel) {
+  const double theta = 200, t = 1e-12;  // t - C(1-t, t) to first order in t^theta
+  const CopulaPtr base = families::find("clayton").make(2, {theta});
+  const double expected = (1 + theta) * std::log(t) + std::log(std::expm1(-theta * std::log1p(-t)) / theta);
+  const Column log_cdf = Rotated(base, {true, false}).log_cdf(Points::Constant(1, 2, t));
+  EXPECT_TRUE(logarithm_agrees(log_cdf(0), Digits(expected)));
+
+  constexpr int kDim = 15;  // |psi^(d)(0)| u^d to first order in u
+  const double weak = 2, u = 1e-300;
+  double survival = kDim * std::log(u);
+  for (int k = 0; k < kDim; ++k) survival += std::log1p(k * weak);
+  const Column of_all =
+      survival_copula(families::find("clayton").make(kDim, {weak}))->log_cdf(Points::Constant(1, kDim, u));
+  EXPECT_TRUE(logarithm_agrees(of_all(0), Digits(survival)));
+}
+
 TEST(Rotated, SaysWhatIsWrong) {
   const CopulaPtr base = families::find("clayton").make(25, {2.0});
   EXPECT_THROW(Rotated(nullptr, {true}), std::invalid_argument);
