@@ -18,15 +18,22 @@ std::string Interval::to_text() const {
 }
 
 bool FamilyInfo::admits(int dim, const Theta& theta) const {
-  if (theta.size() != parameters.size()) return false;
+  if (!dimensions.contains(dim) || theta.size() != parameters.size()) return false;
   for (std::size_t i = 0; i < theta.size(); ++i) {
     if (!parameters[i].domain(dim).contains(theta[i])) return false;
   }
   return true;
 }
 
+void FamilyInfo::require_dimension(int dim) const {
+  if (dim >= 2 && dimensions.contains(dim)) return;
+  const std::string what = name + ": dimension must be " + dimensions.to_text() + ", got " + std::to_string(dim);
+  if (dim < 2) throw std::invalid_argument(what);
+  throw std::domain_error(what);
+}
+
 void FamilyInfo::require_admissible(int dim, const Theta& theta) const {
-  if (dim < 2) throw std::invalid_argument(name + ": dimension must be 2 or more, got " + std::to_string(dim));
+  require_dimension(dim);
   if (theta.size() != parameters.size()) {
     throw std::invalid_argument(name + ": takes " + std::to_string(parameters.size()) + " parameters, got " +
                                 std::to_string(theta.size()));
@@ -58,6 +65,7 @@ Theta FamilyInfo::from_tau(int dim, double value) const {
   if (parameters.size() != 1 || !theta_from_tau) {
     throw std::invalid_argument(name + ": has no inverse of Kendall's tau; give theta");
   }
+  require_dimension(dim);
   const Interval range = tau_range(dim);
   if (!range.contains(value)) {
     throw std::domain_error(name + ": tau must be in " + range.to_text() + " in dimension " + std::to_string(dim) +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "copula/copula.hpp"
+#include "copula/rotation.hpp"
 
 namespace sklar {
 
@@ -31,28 +32,31 @@ struct TailDependence {
 };
 
 struct FamilyInfo {
-  std::string name;    ///< registry key, lower case
+  std::string name;    ///< registry key, lower case; with @ROTATION behind it where rotated
   std::string title;   ///< as printed
-  std::string psi;     ///< textbook generator in t and the parameters
+  std::string psi;     ///< textbook generator in t and the parameters, where rotated of the base; empty without one
   std::string source;  ///< reference with equation or page
   std::vector<ParameterInfo> parameters;
   std::vector<Theta>
       examples;  ///< weak, medium and extreme dependence; those admissible in a dimension are tested in it
 
   std::function<CopulaPtr(int dim, const Theta&)> make_unchecked;
-  std::function<double(const Theta&)> tau;            ///< Kendall's tau of any pair
+  std::function<double(const Theta&)> tau;            ///< Kendall's tau of any pair; NaN if pairs differ or unknown
   std::function<Theta(double tau)> theta_from_tau;    ///< inverse of tau; empty unless there is exactly one parameter
-  std::function<TailDependence(const Theta&)> tails;  ///< lower and upper tail dependence coefficients
-  std::string definition{};  ///< of a family given as a formula: the JSON that makes it, to be stored with a model
+  std::function<TailDependence(const Theta&)> tails;  ///< lower and upper tail dependence coefficients; NaN as tau
+  std::string definition{};  ///< of a family that is not registered: the JSON that makes it, to be stored with a model
+  Dimensions dimensions{};
+  Rotation rotation{};  ///< see rotated_family.hpp
 
   /// @throws std::invalid_argument (number of parameters, dim < 2) or std::domain_error naming family, parameter,
-  /// value, dimension and the admissible interval.
+  /// value, dimension and the admissible interval or dimensions.
   [[nodiscard]] CopulaPtr make(int dim, const Theta& theta) const;
 
-  /// Whether theta has one value a parameter, each in its domain.
+  /// Whether the family has the dimension, and theta one value a parameter, each in its domain.
   [[nodiscard]] bool admits(int dim, const Theta& theta) const;
 
   /// Throws as make does.
+  void require_dimension(int dim) const;
   void require_admissible(int dim, const Theta& theta) const;
 
   /// Range of tau over the admissible parameters in a dimension. Precondition: one parameter.

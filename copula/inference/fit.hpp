@@ -42,7 +42,7 @@ struct FitResult {
   std::string family;  ///< FamilyInfo::name
   FitMethod method = FitMethod::maximum_likelihood;
   Theta theta = {};               ///< the best seen, admissible in the dimension of the data
-  double tau = kNone;             ///< Kendall's tau of any pair at theta
+  double tau = kNone;             ///< FamilyInfo::tau at theta
   double objective = kNone;       ///< what was minimised: -log_likelihood, the sum of squares, |tau - tau of data|
   double log_likelihood = kNone;  ///< sum w_i log c(u_i; theta); -inf if nonfinite > 0
   double aic = kNone;             ///< 2k - 2 log_likelihood

@@ -29,6 +29,7 @@ double total_weight(const ColumnRef& weights, Index rows) {
 
 Fitter::Fitter(const FamilyInfo& family, FitMethod method, int dim, const FitOptions& options)
     : family_(family), dim_(dim), options_(options), scale_(family, dim) {
+  family.require_dimension(dim);
   require_options(options);
   result_.family = family.name;
   result_.method = method;

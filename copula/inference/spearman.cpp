@@ -67,8 +67,7 @@ double spearman_rho(const Copula& copula) {
 }
 
 Theta theta_from_rho(const FamilyInfo& family, int dim, double rho) {
-  return invert(family, dim, "rho", rho,
-                [&](const Theta& theta) { return spearman_rho(*family.make_unchecked(2, theta)); });
+  return invert(family, dim, "rho", rho, [&](const Theta& theta) { return spearman_rho(*family.make(2, theta)); });
 }
 
 Theta theta_from_lower_tail(const FamilyInfo& family, int dim, double lambda) {

@@ -84,10 +84,6 @@ class FormulaFamily {
   }
 
   [[nodiscard]] CopulaPtr make(int dim, const Theta& theta) const {
-    if (dim > kMaxDimension) {
-      throw std::domain_error(definition_.name + ": the dimension of a family given as a formula is at most " +
-                              std::to_string(kMaxDimension) + ", got " + std::to_string(dim));
-    }
     const SymbolicGenerator generator(formula_, dim, theta, subject(theta));
     require_generator(generator, dim, subject(theta));
     return std::make_shared<Archimedean<SymbolicGenerator>>(dim, generator);
@@ -170,7 +166,8 @@ FamilyInfo make_family(const FamilyDefinition& definition) {
                   .tau = {},
                   .theta_from_tau = {},
                   .tails = [family](const Theta& theta) { return family->tails(theta); },
-                  .definition = to_json(definition)};
+                  .definition = to_json(definition),
+                  .dimensions = {2, kMaxDimension}};
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     info.parameters.push_back({definition.parameters[i].name, [family, i](int dim) { return family->domain(i, dim); }});
   }

@@ -2,6 +2,7 @@
 
 #include "copula/error.hpp"
 #include "copula/first_answer.hpp"
+#include "copula/row.hpp"
 #include "copula/symbolic/log_form.hpp"
 #include "copula/symbolic/parser.hpp"
 #include "copula/symbolic/symbolic_generator.hpp"
@@ -42,6 +43,11 @@ int require_dimension(int dim) {
                               ", got " + std::to_string(dim));
 }
 
+Reflection reflection_of(const FamilyInfo& family, int dim) {
+  family.require_dimension(dim);
+  return Reflection(family.rotation.in(dim));
+}
+
 /// What the tapes need of the parameters alone.
 template <class T>
 struct Prepared {
@@ -63,8 +69,8 @@ class RowGradient {
         prepared_(&at_sum, &at_margins, theta) {}
 
   /// NaN where no number type resolves all entries.
-  [[nodiscard]] std::vector<double> operator()(std::span<const double> u) const {
-    const auto found = first_answer([&]<class T>() { return resolved(evaluate<T>(u)); });
+  [[nodiscard]] std::vector<double> operator()(const Row& row) const {
+    const auto found = first_answer([&]<class T>() { return resolved(evaluate<T>(RowOf<T>(row).all())); });
     return found.value_or(std::vector<double>(parameters_, std::numeric_limits<double>::quiet_NaN()));
   }
 
@@ -80,12 +86,12 @@ class RowGradient {
   }
 
   template <class T>
-  std::vector<T> evaluate(std::span<const double> u) const {
+  std::vector<T> evaluate(std::span<const T> u) const {
     const Prepared<T>& prepared = prepared_.get<T>();
     T sum(0.0);
     std::vector<T> sum_slope(parameters_, T(0.0)), gradient(parameters_, T(0.0));
-    for (const double value : u) {
-      const T t = psi_.psi_inv(T(value));
+    for (const T& value : u) {
+      const T t = psi_.psi_inv(value);
       sum += t;
       const auto slopes = at_margins_.run<T>(prepared.at_margins, t);
       const std::size_t of_psi = parameters_ + 1;
@@ -113,7 +119,8 @@ LogDensityGradient::LogDensityGradient(const FamilyInfo& family, int dim)
     : psi_(std::make_shared<const GeneratorFormula>(parse(family.psi), std::nullopt, parameter_names(family))),
       at_sum_(log_slopes(family, require_dimension(dim)), "t", parameter_names(family)),
       at_margins_(margin_slopes(family), "t", parameter_names(family)),
-      dim_(dim) {}
+      dim_(dim),
+      reflection_(reflection_of(family, dim)) {}
 
 Points LogDensityGradient::operator()(const Theta& theta, const PointsRef& u) const {
   require_columns("log density gradient", "u", u.cols(), dim_, dim_);
@@ -126,7 +133,7 @@ Points LogDensityGradient::operator()(const Theta& theta, const PointsRef& u) co
   std::vector<double> row(static_cast<std::size_t>(dim_));
   for (Index i = 0; i < u.rows(); ++i) {
     for (Index k = 0; k < dim_; ++k) row[static_cast<std::size_t>(k)] = u(i, k);
-    const std::vector<double> entries = gradient(row);
+    const std::vector<double> entries = gradient({row, &reflection_});
     for (Index j = 0; j < result.cols(); ++j) result(i, j) = entries[static_cast<std::size_t>(j)];
   }
   return result;

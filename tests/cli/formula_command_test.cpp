@@ -142,7 +142,7 @@ TEST_F(FormulaCommand, RefusesADimensionInWhichPsiIsNoGenerator) {
   const std::string sample = "copula sample -n 1 --family mine.json --theta 0.45 --dim ";
   EXPECT_EQ(run(sample + "3").status, 0);
   expect_refused(sample + "4", "mine (theta = 0.45): psi is no generator in dimension 4: (-1)^4 psi^(4)(t)");
-  expect_refused(sample + "21", "mine: the dimension of a family given as a formula is at most 20, got 21");
+  expect_refused(sample + "21", "mine: dimension must be 2 to 20, got 21");
 }
 
 }  // namespace

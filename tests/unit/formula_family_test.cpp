@@ -141,7 +141,7 @@ TEST(FormulaFamily, RefusesWhatIsNoGenerator) {
           .starts_with("mine (theta = -0.45): psi is no generator in dimension 4: (-1)^4 psi^(4)(t) must not be "
                        "negative, found psi^(4)("));
   EXPECT_EQ(error_of([&] { (void)family.make(kMaxDimension + 1, {1}); }),
-            "mine: the dimension of a family given as a formula is at most 20, got 21");
+            "mine: dimension must be 2 to 20, got 21");
 }
 
 TEST(FormulaFamily, RefusesAnInverseThatIsNone) {

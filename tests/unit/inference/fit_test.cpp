@@ -6,6 +6,8 @@
 
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/objective.hpp"
+#include "copula/inference/select.hpp"
+#include "copula/rotated_family.hpp"
 #include "tests/support/family_cases.hpp"
 
 namespace sklar {
@@ -185,6 +187,36 @@ TEST(LeastSquares, OfPointsIsNearTheirParameters) {
     EXPECT_LE(result.objective, squared_error(*test_case.copula(), cells, {}).value) << test_case.name();
     EXPECT_TRUE(std::isfinite(result.aic));
   }
+}
+
+TEST(Fit, RotatedFamiliesServeNegativeDependence) {
+  for (const std::string name : {"clayton", "gumbel", "joe"}) {
+    const FamilyInfo& base = families::find(name);
+    const FamilyInfo own = rotated_family(base, Rotation("90")), other = rotated_family(base, Rotation("270")),
+                     survival = rotated_family(base, Rotation("180"));
+    const Theta theta = own.from_tau(2, -0.5);
+    Rng rng(11);
+    const Points u = own.make(2, theta)->sample(2000, rng);
+    const std::vector<const FamilyInfo*> families = {&base, &survival, &other, &own, &families::find("frank")};
+    const std::vector<FitResult> results = fit_all(families, FitMethod::maximum_likelihood, u);
+    EXPECT_EQ(results.front().family, name + "@90");
+    EXPECT_NEAR(results.front().theta[0], theta[0], kStandardErrors * results.front().standard_error[0]) << name;
+    const FitResult by_tau = fit_tau_inversion(own, u);
+    EXPECT_NEAR(by_tau.tau, -0.5, kStandardErrors * 0.667 / std::sqrt(2000.0)) << name;
+  }
+}
+
+TEST(Fit, RotationsOfChosenCoordinatesAreFoundWithoutTau) {
+  const FamilyInfo family = rotated_family(families::find("gumbel"), Rotation("u1+u3"));
+  Rng rng(12);
+  const Points u = family.make(4, {2})->sample(1000, rng);
+  const FitResult result = fit_maximum_likelihood(family, u);
+  EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+  EXPECT_NEAR(result.theta[0], 2, kStandardErrors * result.standard_error[0]);
+  EXPECT_LT(result.standard_error[0], 0.1);
+  EXPECT_THROW((void)fit_tau_inversion(family, u), std::invalid_argument);
+  const FamilyInfo pairs = rotated_family(families::find("gumbel"), Rotation("90"));
+  EXPECT_THROW((void)fit_maximum_likelihood(pairs, u), std::domain_error);
 }
 
 TEST(Fit, NoParametersNeedNoSearch) {
