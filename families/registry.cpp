@@ -1,14 +1,15 @@
 #include "families/registry.hpp"
 
 #include <array>
+#include <functional>
 #include <map>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
-#include "copula/symbolic/formula_family.hpp"
+#include "copula/inference/model_io.hpp"
+#include "copula/rotated_family.hpp"
 
 namespace sklar::families {
 
@@ -21,37 +22,47 @@ std::span<const FamilyInfo> all() {
   return list;
 }
 
+namespace {
+
+/// make() of the first call with this name.
+const FamilyInfo& kept(std::string_view name, const std::function<FamilyInfo()>& make) {
+  static std::mutex mutex;
+  static std::map<std::string, FamilyInfo, std::less<>> families;  // addresses stay
+  const std::lock_guard lock(mutex);
+  const auto known = families.find(name);
+  if (known != families.end()) return known->second;
+  return families.emplace(name, make()).first->second;
+}
+
+/// Of a name, with base(name before the @).
+template <class Base>
+const FamilyInfo& find_rotated(std::string_view name, const Base& base) {
+  const RotatedName parts = split_rotation(name);
+  if (!parts.rotation) return base(name);
+  const FamilyInfo& plain = base(parts.base);
+  return kept(name, [&] { return rotated_family(plain, Rotation(*parts.rotation)); });
+}
+
+}  // namespace
+
 const FamilyInfo& find(std::string_view name) {
-  std::string known;
-  for (const FamilyInfo& family : all()) {
-    if (family.name == name) return family;
-    known += (known.empty() ? "" : ", ") + family.name;
-  }
-  throw std::invalid_argument("unknown family '" + std::string(name) + "'; known families: " + known);
+  return find_rotated(name, [](std::string_view base) -> const FamilyInfo& { return find_family(base, all()); });
 }
 
 FamilyInfo from_definition(std::string_view json, std::string_view source) {
-  const symbolic::FamilyDefinition definition = symbolic::parse_definition(json, source);
-  for (const FamilyInfo& family : all()) {
-    if (family.name != definition.name) continue;
-    throw FileError(source, "field 'name': '" + family.name + "' is a registered family; choose another name");
+  FamilyInfo family = family_from_json(json, source, all());
+  for (const FamilyInfo& registered : all()) {
+    if (registered.name != split_rotation(family.name).base) continue;
+    throw FileError(source, "field 'name': '" + registered.name + "' is a registered family; choose another name");
   }
-  try {
-    return symbolic::make_family(definition);
-  } catch (const std::logic_error& error) {
-    throw FileError(source, error.what());
-  }
+  return family;
 }
 
 const FamilyInfo& resolve(std::string_view name_or_path) {
-  if (!name_or_path.ends_with(".json")) return find(name_or_path);
-  static std::mutex mutex;
-  static std::map<std::string, FamilyInfo, std::less<>> files;  // addresses stay
-  const std::lock_guard lock(mutex);
-  const auto known = files.find(name_or_path);
-  if (known != files.end()) return known->second;
-  const std::string path(name_or_path);
-  return files.emplace(path, from_definition(read_file(path), path)).first->second;
+  return find_rotated(name_or_path, [](std::string_view base) -> const FamilyInfo& {
+    if (!base.ends_with(".json")) return find(base);
+    return kept(base, [path = std::string(base)] { return from_definition(read_file(path), path); });
+  });
 }
 
 }  // namespace sklar::families

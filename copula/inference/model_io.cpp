@@ -3,6 +3,8 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
+#include "copula/mixture.hpp"
+#include "copula/rotated_family.hpp"
 #include "copula/symbolic/formula_family.hpp"
 
 namespace sklar {
@@ -12,18 +14,17 @@ using json::Json;
 
 constexpr std::string_view kFormat = "sklar copula";
 
-const FamilyInfo& find_family(std::string_view name, std::span<const FamilyInfo> families) {
-  std::string known;
-  for (const FamilyInfo& family : families) {
-    if (family.name == name) return family;
-    known += (known.empty() ? "" : ", ") + family.name;
-  }
-  throw std::invalid_argument("unknown family '" + std::string(name) + "'; known families: " + known);
+FamilyInfo family_from(const Json& json, std::string_view source, std::span<const FamilyInfo> families);
+
+FamilyInfo family_named(std::string_view name, std::span<const FamilyInfo> families) {
+  const RotatedName parts = split_rotation(name);
+  const FamilyInfo& base = find_family(parts.base, families);
+  return parts.rotation ? rotated_family(base, Rotation(*parts.rotation)) : base;
 }
 
-FamilyInfo family_of(const CopulaModel& model, std::span<const FamilyInfo> families) {
-  if (model.definition.empty()) return find_family(model.family, families);
-  return symbolic::make_family(symbolic::parse_definition(model.definition, "definition of the family"));
+FamilyInfo family_of(const ModelComponent& component, std::span<const FamilyInfo> families) {
+  if (component.definition.empty()) return family_named(component.family, families);
+  return family_from_json(component.definition, "definition of the family", families);
 }
 
 Json to_json_value(const HistogramMarginal& margin) {
@@ -52,33 +53,125 @@ void require_margins(const CopulaModel& model) {
                               std::to_string(model.margins.size()));
 }
 
-CopulaModel model_from(const Json& json, std::span<const FamilyInfo> families) {
-  json::require_format(json, kFormat, kModelVersion);
-  const bool defined = json::field(json, "family").is_object();
-  CopulaModel model{.family = json::text(defined ? json["family"] : json, defined ? "name" : "family"),
-                    .dim = json::integer(json, "dim"),
-                    .theta = json::numbers(json, "theta"),
-                    .margins = {},
-                    .definition = defined ? json["family"].dump() : ""};
-  family_of(model, families).require_admissible(model.dim, model.theta);
-  const Json& margins = json::array(json, "margins");
-  for (std::size_t i = 0; i < margins.size(); ++i) {
+ModelComponent component_from(const Json& json, int dim, std::span<const FamilyInfo> families) {
+  const Json& family = json::field(json, "family");
+  const FamilyInfo info =
+      family.is_object() ? family_from(family, "family", families) : family_named(json::text(json, "family"), families);
+  ModelComponent component{.family = info.name, .theta = json::numbers(json, "theta"), .definition = info.definition};
+  info.require_admissible(dim, component.theta);
+  return component;
+}
+
+/// convert(entry) of each entry of an array, which errors name.
+template <class Convert>
+auto each_of(const Json& json, const char* name, const Convert& convert) {
+  const Json& array = json::array(json, name);
+  std::vector<decltype(convert(array))> values;
+  for (std::size_t i = 0; i < array.size(); ++i) {
     try {
-      model.margins.push_back(margin_from(margins[i]));
+      values.push_back(convert(array[i]));
     } catch (const std::logic_error& error) {
-      throw std::invalid_argument("margins[" + std::to_string(i) + "]: " + error.what());
+      throw std::invalid_argument(std::string(name) + "[" + std::to_string(i) + "]: " + error.what());
     }
   }
+  return values;
+}
+
+std::vector<ModelComponent> components_from(const Json& json, int dim, std::span<const FamilyInfo> families) {
+  if (!json.contains("components")) return {component_from(json, dim, families)};
+  if (json.contains("family") || json.contains("theta")) {
+    throw std::invalid_argument("has the field 'components', so 'family' and 'theta' belong into its entries");
+  }
+  return each_of(json, "components", [&](const Json& entry) {
+    ModelComponent component = component_from(entry, dim, families);
+    component.weight = json::number(entry, "weight");
+    return component;
+  });
+}
+
+CopulaModel model_from(const Json& json, std::span<const FamilyInfo> families) {
+  json::require_format(json, kFormat, kModelVersion);
+  CopulaModel model{.dim = json::integer(json, "dim"), .components = {}};
+  model.components = components_from(json, model.dim, families);
+  model.margins = each_of(json, "margins", margin_from);
+  if (json.contains("name")) model.name = json::text(json, "name");
   require_margins(model);
+  if (json.contains("components")) (void)make_copula(model, families);  // checks the weights
   return model;
+}
+
+Json family_json(const ModelComponent& component) {
+  return component.definition.empty() ? Json(component.family) : Json::parse(component.definition);
+}
+
+bool needs_version_2(const CopulaModel& model) {
+  if (model.components.size() != 1 || !model.name.empty()) return true;
+  const ModelComponent& only = model.components.front();
+  return split_rotation(only.family).rotation.has_value() ||
+         (!only.definition.empty() && !Json::parse(only.definition).contains("psi"));
+}
+
+std::string title_of(const CopulaModel& model) {
+  if (model.components.size() == 1) return model.components.front().family + " with its parameters";
+  std::string names;
+  for (const ModelComponent& component : model.components) names += (names.empty() ? "" : ", ") + component.family;
+  return "Mixture of " + names;
+}
+
+FamilyInfo family_of_model(CopulaModel model, std::string_view source, std::span<const FamilyInfo> families) {
+  model.margins.clear();
+  if (model.name.empty()) model.name = source;
+  double total = 0;
+  for (const ModelComponent& component : model.components) total += component.weight;
+  double tau = 0;
+  TailDependence tails{0, 0};
+  for (const ModelComponent& component : model.components) {
+    const FamilyInfo family = family_of(component, families);
+    const TailDependence part = family.tails(component.theta);
+    const double share = component.weight / total;
+    tau = model.components.size() == 1 ? family.tau(component.theta) : std::numeric_limits<double>::quiet_NaN();
+    tails = {tails.lower + share * part.lower, tails.upper + share * part.upper};
+  }
+  return {.name = model.name,
+          .title = title_of(model),
+          .psi = "",
+          .source = "stored copula",
+          .parameters = {},
+          .examples = {Theta{}},
+          .make_unchecked = [copula = make_copula(model, families)](int, const Theta&) { return copula; },
+          .tau = [tau](const Theta&) { return tau; },
+          .theta_from_tau = {},
+          .tails = [tails](const Theta&) { return tails; },
+          .definition = to_json(model),
+          .dimensions = {model.dim, model.dim}};
+}
+
+FamilyInfo family_from(const Json& json, std::string_view source, std::span<const FamilyInfo> families) {
+  if (json.is_object() && json.contains("rotation")) {
+    return rotated_family(family_from(json::field(json, "family"), source, families),
+                          Rotation(json::text(json, "rotation")));
+  }
+  if (json.is_object() && json.contains("format") && json["format"] == kFormat) {
+    return family_of_model(model_from(json, families), source, families);
+  }
+  return symbolic::make_family(symbolic::parse_definition(json.dump(), source));
 }
 
 }  // namespace
 
 std::string to_json(const CopulaModel& model) {
-  const Json family = model.definition.empty() ? Json(model.family) : Json::parse(model.definition);
-  Json json = {{"format", kFormat}, {"version", kModelVersion}, {"family", family},
-               {"dim", model.dim},  {"theta", model.theta},     {"margins", Json::array()}};
+  Json json = {{"format", kFormat}, {"version", needs_version_2(model) ? 2 : 1}};
+  if (!model.name.empty()) json["name"] = model.name;
+  if (model.components.size() == 1) {
+    const ModelComponent& only = model.components.front();
+    json.update({{"family", family_json(only)}, {"dim", model.dim}, {"theta", only.theta}});
+  } else {
+    json.update({{"dim", model.dim}, {"components", Json::array()}});
+    for (const ModelComponent& part : model.components) {
+      json["components"].push_back({{"weight", part.weight}, {"family", family_json(part)}, {"theta", part.theta}});
+    }
+  }
+  json["margins"] = Json::array();
   for (const StoredMarginal& margin : model.margins) {
     json["margins"].push_back(std::visit([](const auto& value) { return to_json_value(value); }, margin));
   }
@@ -95,7 +188,19 @@ CopulaModel read_model(const std::filesystem::path& path, std::span<const Family
 }
 
 CopulaPtr make_copula(const CopulaModel& model, std::span<const FamilyInfo> families) {
-  return family_of(model, families).make(model.dim, model.theta);
+  if (model.components.empty()) throw std::invalid_argument("a model needs one component or more, got none");
+  std::vector<CopulaPtr> copulas;
+  std::vector<double> weights;
+  for (const ModelComponent& component : model.components) {
+    copulas.push_back(family_of(component, families).make(model.dim, component.theta));
+    weights.push_back(component.weight);
+  }
+  if (copulas.size() == 1 && weights.front() == 1) return copulas.front();
+  return std::make_shared<Mixture>(std::move(copulas), std::move(weights));
+}
+
+FamilyInfo family_from_json(std::string_view json, std::string_view source, std::span<const FamilyInfo> families) {
+  return json::parse(json, source, [&](const Json& document) { return family_from(document, source, families); });
 }
 
 JointDistribution make_joint(const CopulaModel& model, std::span<const FamilyInfo> families) {

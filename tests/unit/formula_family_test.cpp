@@ -140,8 +140,7 @@ TEST(FormulaFamily, RefusesWhatIsNoGenerator) {
       error_of([&] { (void)family.make(4, {-0.45}); })
           .starts_with("mine (theta = -0.45): psi is no generator in dimension 4: (-1)^4 psi^(4)(t) must not be "
                        "negative, found psi^(4)("));
-  EXPECT_EQ(error_of([&] { (void)family.make(kMaxDimension + 1, {1}); }),
-            "mine: dimension must be 2 to 20, got 21");
+  EXPECT_EQ(error_of([&] { (void)family.make(kMaxDimension + 1, {1}); }), "mine: dimension must be 2 to 20, got 21");
 }
 
 TEST(FormulaFamily, RefusesAnInverseThatIsNone) {
@@ -287,12 +286,27 @@ TEST(FormulaFamily, FitsRecoverTheParametersOfTheExamples) {
 TEST(FormulaFamily, AModelFileStandsAlone) {
   const FamilyInfo& family = example("bb1");
   const CopulaModel model{
-      .family = family.name, .dim = 3, .theta = {0.5, 1.5}, .margins = {}, .definition = family.definition};
+      .dim = 3, .components = {{.family = family.name, .theta = {0.5, 1.5}, .definition = family.definition}}};
   const std::string json = to_json(model);
   const CopulaModel back = parse_model(json, "model.json", {});
   EXPECT_EQ(to_json(back), json);
   const Points u = Points::Constant(1, 3, 0.3);
   EXPECT_EQ(make_copula(back, {})->log_pdf(u)(0), family.make(3, {0.5, 1.5})->log_pdf(u)(0));
+}
+
+TEST(FormulaFamily, IsRotatedLikeAnyOther) {
+  const FamilyInfo& family = families::resolve(path_of("bb1") + "@180");
+  EXPECT_EQ(family.name, "bb1@180");
+  EXPECT_EQ(&families::resolve(path_of("bb1") + "@180"), &family);
+  EXPECT_EQ(family.tails({0.5, 1.5}).lower, example("bb1").tails({0.5, 1.5}).upper);
+  const CopulaModel model{
+      .dim = 3, .components = {{.family = family.name, .theta = {0.5, 1.5}, .definition = family.definition}}};
+  const std::string json = to_json(model);
+  const CopulaModel back = parse_model(json, "model.json", {});
+  EXPECT_EQ(to_json(back), json);
+  EXPECT_EQ(back.components[0].family, "bb1@180");
+  const Points u = Points::Constant(1, 3, 0.25);
+  EXPECT_EQ(make_copula(back, {})->log_pdf(u)(0), example("bb1").make(3, {0.5, 1.5})->log_pdf(1 - u)(0));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include "copula/error.hpp"
+
 namespace sklar {
 namespace {
 
@@ -15,6 +17,18 @@ TEST(Registry, NamesAreUniqueAndFound) {
     EXPECT_EQ(&families::find(family.name), &family);
   }
   EXPECT_FALSE(names.empty());
+}
+
+TEST(Registry, RotationsAreFoundByName) {
+  const FamilyInfo& survival = families::find("clayton@180");
+  EXPECT_EQ(survival.name, "clayton@180");
+  EXPECT_EQ(&families::find("clayton@180"), &survival);
+  EXPECT_EQ(&families::resolve("clayton@180"), &survival);
+  EXPECT_EQ(families::find("gumbel@u3+u1").name, "gumbel@u1+u3");
+  for (const std::string name : {"clayton@", "clayton@45", "@90", "x@90", "clayton@90@90", "x.json@90"}) {
+    EXPECT_THROW((void)families::find(name), std::invalid_argument) << name;
+  }
+  EXPECT_THROW((void)families::resolve("missing.json@90"), FileError);
 }
 
 TEST(Registry, UnknownNameListsTheKnownOnes) {
