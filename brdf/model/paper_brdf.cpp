@@ -86,7 +86,7 @@ PaperBrdf::Density PaperBrdf::make_density(const FamilyInfo& family, const Paper
     density.margins.push_back(histogram(slice.masses[axis]));
     density.inside[axis] = centres_with_mass(slice.masses[axis]);
   }
-  density.copula = family.make(3, slice.theta);
+  density.copula = family.make(kPaperDimension, slice.theta);
   density.log_scale = std::log(double{slice.scale});
   return density;
 }

@@ -15,6 +15,8 @@
 
 namespace sklar::brdf {
 
+inline constexpr int kPaperDimension = 3;  ///< of the copula: theta_h, theta_d, phi_d
+
 /// What the mass of a cell is, and so what is normalised and fitted.
 enum class CellMeasure {
   per_cell,        ///< the value of f_r in the cell, as in the paper

@@ -78,7 +78,7 @@ struct SliceTask {
     if (found.status == FitStatus::failed) throw std::runtime_error(where() + ": " + found.message);
     for (std::size_t axis = 0; axis < 3; ++axis) result.masses[axis] = margin(all.mass, shape, axis);
     result.theta = found.theta;
-    const CopulaPtr copula = family.make(3, found.theta);
+    const CopulaPtr copula = family.make(kPaperDimension, found.theta);
     result.scale = static_cast<float>(total / (copula->pdf(cells.u) * cells.margin).sum());
   }
 

@@ -37,6 +37,7 @@ void write_results(const std::filesystem::path& folder, const std::vector<brdf::
 
 void run(const Options& options, bool json) {
   const auto families = parse_families(options.families);
+  for (const FamilyInfo* family : families) family->require_dimension(brdf::kPaperDimension);
   std::vector<std::string> materials = options.materials;
   if (materials.empty()) materials.emplace_back();
   std::vector<brdf::CompareRow> rows;
@@ -72,8 +73,7 @@ void add_brdf_compare(CLI::App& parent, Common& common) {
   const auto options = std::make_shared<Options>();
   command->add_option("MATERIAL", options->materials,
                       "material files (.binary, .bsdf); omitted: the built-in material");
-  command->add_option("--families", options->families, "names or files FAMILY.json separated by commas, or all")
-      ->capture_default_str();
+  command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
   add_fit_options(*command, options->fit, options->provenance);
   finish_command(*command, common, [options, &common] { run(*options, common.json); });

@@ -76,8 +76,7 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("fit", "fit a model to a material");
   const auto options = std::make_shared<Options>();
   add_material(*command, options->material);
-  command->add_option("--family", options->family, "copula family: a name or a file FAMILY.json")
-      ->capture_default_str();
+  command->add_option("--family", options->family, kFamilyHelp)->capture_default_str();
   command->add_option("-o", options->output, "MODEL.json")->required();
   add_fit_options(*command, options->fit, options->provenance);
   finish_command(*command, common, [options, &common] { run(*options, common.json); });

@@ -59,10 +59,10 @@ std::string json_of(const std::vector<FitResult>& results) {
 std::string csv_of(const std::vector<FitResult>& results) {
   std::string out = "name,theta,tau,loglik,aic,bic,se,status,evaluations,message\n";
   for (const FitResult& result : results) {
-    out += result.family + ',' + digits(result.theta) + ',' + digits(result.tau) + ',' + digits(result.log_likelihood) +
-           ',' + digits(result.aic) + ',' + digits(result.bic) + ',' + digits(result.standard_error) + ',' +
-           std::string(to_text(result.status)) + ',' + std::to_string(result.evaluations) + ',' +
-           csv_field(result.message) + '\n';
+    out += csv_field(result.family) + ',' + digits(result.theta) + ',' + digits(result.tau) + ',' +
+           digits(result.log_likelihood) + ',' + digits(result.aic) + ',' + digits(result.bic) + ',' +
+           digits(result.standard_error) + ',' + std::string(to_text(result.status)) + ',' +
+           std::to_string(result.evaluations) + ',' + csv_field(result.message) + '\n';
   }
   return out;
 }
@@ -84,8 +84,7 @@ void add_copula_fit(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("fit", "fit families to the columns of a CSV file, the best first");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->path, "a header, then one observation a line")->required();
-  command->add_option("--families", options->families, "names or files FAMILY.json separated by commas, or all")
-      ->capture_default_str();
+  command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--margins", options->margins, "empirical: ranks; none: the columns are in (0,1) already")
       ->check(CLI::IsMember({"empirical", "none"}))
       ->capture_default_str();

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "copula/archimedean_copula.hpp"
 #include "copula/inference/csv.hpp"
 #include "copula/random.hpp"
 #include "examples/cli/command.hpp"
@@ -17,41 +16,38 @@ struct Options {
   std::string family = "frank";
   std::string theta;
   std::optional<double> tau;
-  int dim = 2;
+  std::optional<int> dim;
   long long n = 0;
   std::string given;
   Route route = Route::conditional;
   std::string output;
 };
 
-std::string json_text(const Options& options, const FamilyInfo& family, const Theta& theta, std::uint64_t seed,
+std::string json_text(const FamilyInfo& family, const Theta& theta, std::uint64_t seed,
                       const std::vector<std::string>& columns, const Points& u) {
-  const nlohmann::ordered_json document{{"family", family.name}, {"theta", theta},     {"dim", options.dim},
+  const nlohmann::ordered_json document{{"family", family.name}, {"theta", theta},     {"dim", u.cols()},
                                         {"seed", seed},          {"columns", columns}, {"rows", json_rows(u)}};
   return document.dump() + '\n';
 }
 
 Points sample_by(const Options& options, const Copula& copula, const Points& given, Rng& rng) {
   if (given.cols() > 0) throw std::invalid_argument("--given needs the conditional route");
-  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(&copula);
-  if (archimedean == nullptr) throw std::domain_error("--route: the copula has no generator");
-  return archimedean->sample_by(options.route, options.n, rng);
+  return copula.sample_by(options.route, options.n, rng);
 }
 
 void run(const Options& options, const Common& common) {
   const FamilyInfo& family = families::resolve(options.family);
-  const Theta theta =
-      options.tau ? family.from_tau(options.dim, *options.tau) : parse_numbers(options.theta, ',', "--theta");
-  const CopulaPtr copula = family.make(options.dim, theta);
+  const int dim = options.dim.value_or(family.dimensions.lowest);
+  const Theta theta = options.tau ? family.from_tau(dim, *options.tau) : parse_numbers(options.theta, ',', "--theta");
+  const CopulaPtr copula = family.make(dim, theta);
   const std::vector<double> values = parse_numbers(options.given, ',', "--given");
   const Points given = Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Index>(values.size())).transpose();
   Rng rng(common.seed);
   const Points u = options.route == Route::conditional ? copula->sample(options.n, rng, given)
                                                        : sample_by(options, *copula, given, rng);
   std::vector<std::string> columns;
-  for (int k = 1; k <= options.dim; ++k) columns.push_back("u" + std::to_string(k));
-  write_output(options.output,
-               common.json ? json_text(options, family, theta, common.seed, columns, u) : to_csv(columns, u));
+  for (int k = 1; k <= dim; ++k) columns.push_back("u" + std::to_string(k));
+  write_output(options.output, common.json ? json_text(family, theta, common.seed, columns, u) : to_csv(columns, u));
 }
 
 }  // namespace
@@ -59,12 +55,11 @@ void run(const Options& options, const Common& common) {
 void add_copula_sample(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("sample", "draw points of a copula, leading coordinates given or not");
   const auto options = std::make_shared<Options>();
-  command->add_option("--family", options->family, "a name of `sklar families` or a file FAMILY.json")
-      ->capture_default_str();
+  command->add_option("--family", options->family, kFamilyHelp)->capture_default_str();
   auto* theta = command->add_option("--theta", options->theta, "parameters, separated by commas");
   auto* tau = command->add_option("--tau", options->tau, "Kendall's tau in place of the parameter");
   theta->excludes(tau);
-  command->add_option("--dim", options->dim, "dimension")->capture_default_str();
+  command->add_option("--dim", options->dim, "dimension; by default the lowest that the family has");
   command->add_option("-n", options->n, "number of points")->required();
   command->add_option("--given", options->given, "leading coordinates in [0,1], separated by commas");
   const std::map<std::string, Route> routes = {

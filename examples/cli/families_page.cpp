@@ -31,12 +31,14 @@ std::string formula(const std::string& latex) {
 }
 
 std::string generator(const FamilyInfo& family) {
+  if (family.psi.empty()) return "No generator (" + family.source + ").\n\n";
   std::string text = formula("\\psi(t) = " + symbolic::to_latex(symbolic::parse(family.psi)));
   for (int order = 1; order <= kOrders; ++order) {
     const std::string left = order == 1 ? "\\psi'(t) = " : "\\psi^{(" + std::to_string(order) + ")}(t) = ";
     text += formula(left + symbolic::derive(family.psi, order, symbolic::Language::latex));
   }
-  return text + "`" + family.psi + "` (" + family.source + ")\n\n";
+  text += "`" + family.psi + "` (" + family.source + ")\n\n";
+  return family.rotation.none() ? text : text + "Of the copula before rotation.\n\n";
 }
 
 std::string domains(const FamilyInfo& family) {
@@ -47,6 +49,7 @@ std::string domains(const FamilyInfo& family) {
     rule += " --- |";
   }
   for (const int dim : kDimensions) {
+    if (!family.dimensions.contains(dim)) continue;
     rows += "| " + std::to_string(dim) + " |";
     for (const ParameterInfo& parameter : family.parameters) rows += " " + parameter.domain(dim).to_text() + " |";
     rows += "\n";
@@ -73,7 +76,7 @@ std::string families_page(std::span<const FamilyInfo* const> families) {
       "C(u) = psi(psi^-1(u_1) + ... + psi^-1(u_d)) with the generators psi below: the formula that the tests hold "
       "every\n"
       "family to, its first derivatives as the library finds them, the parameters admissible in dimension d, and\n"
-      "dependence of a pair. This page is the output of\n\n"
+      "dependence of a pair. Each may be [rotated](conventions.md). This page is the output of\n\n"
       "```\nbuild/sklar families --page -o docs/families.md\n```\n\n";
   for (const FamilyInfo* family : families) {
     text += "## " + family->title + " (`" + family->name + "`)\n\n" + generator(*family) + domains(*family) +

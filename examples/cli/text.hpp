@@ -36,6 +36,14 @@ namespace sklar::cli {
 /// The field as CSV: in quotes where it holds a comma or a quote.
 [[nodiscard]] std::string csv_field(std::string_view field);
 
+/// What an option that names a family takes, and one that names several.
+inline constexpr const char* kFamilyHelp =
+    "a name of `sklar families`, a file FAMILY.json or MODEL.json; with @180 (survival), @90, @270 or coordinates as "
+    "@u1+u3 behind it, rotated";
+inline constexpr const char* kFamiliesHelp =
+    "all, or names and files separated by commas; with @180 (survival), @90, @270 or coordinates as @u1+u3 behind one, "
+    "rotated";
+
 /// The families of a list of names and files separated by commas; `all` is every registered one. @throws as
 /// families::resolve.
 [[nodiscard]] std::vector<const FamilyInfo*> parse_families(std::string_view names);
