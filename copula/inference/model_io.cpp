@@ -53,10 +53,11 @@ void require_margins(const CopulaModel& model) {
                               std::to_string(model.margins.size()));
 }
 
-ModelComponent component_from(const Json& json, int dim, std::span<const FamilyInfo> families) {
+ModelComponent component_from(const Json& json, int dim, std::string_view source,
+                              std::span<const FamilyInfo> families) {
   const Json& family = json::field(json, "family");
   const FamilyInfo info =
-      family.is_object() ? family_from(family, "family", families) : family_named(json::text(json, "family"), families);
+      family.is_object() ? family_from(family, source, families) : family_named(json::text(json, "family"), families);
   ModelComponent component{.family = info.name, .theta = json::numbers(json, "theta"), .definition = info.definition};
   info.require_admissible(dim, component.theta);
   return component;
@@ -77,22 +78,23 @@ auto each_of(const Json& json, const char* name, const Convert& convert) {
   return values;
 }
 
-std::vector<ModelComponent> components_from(const Json& json, int dim, std::span<const FamilyInfo> families) {
-  if (!json.contains("components")) return {component_from(json, dim, families)};
+std::vector<ModelComponent> components_from(const Json& json, int dim, std::string_view source,
+                                            std::span<const FamilyInfo> families) {
+  if (!json.contains("components")) return {component_from(json, dim, source, families)};
   if (json.contains("family") || json.contains("theta")) {
     throw std::invalid_argument("has the field 'components', so 'family' and 'theta' belong into its entries");
   }
   return each_of(json, "components", [&](const Json& entry) {
-    ModelComponent component = component_from(entry, dim, families);
+    ModelComponent component = component_from(entry, dim, source, families);
     component.weight = json::number(entry, "weight");
     return component;
   });
 }
 
-CopulaModel model_from(const Json& json, std::span<const FamilyInfo> families) {
+CopulaModel model_from(const Json& json, std::string_view source, std::span<const FamilyInfo> families) {
   json::require_format(json, kFormat, kModelVersion);
   CopulaModel model{.dim = json::integer(json, "dim"), .components = {}};
-  model.components = components_from(json, model.dim, families);
+  model.components = components_from(json, model.dim, source, families);
   model.margins = each_of(json, "margins", margin_from);
   if (json.contains("name")) model.name = json::text(json, "name");
   require_margins(model);
@@ -152,7 +154,7 @@ FamilyInfo family_from(const Json& json, std::string_view source, std::span<cons
                           Rotation(json::text(json, "rotation")));
   }
   if (json.is_object() && json.contains("format") && json["format"] == kFormat) {
-    return family_of_model(model_from(json, families), source, families);
+    return family_of_model(model_from(json, source, families), source, families);
   }
   return symbolic::make_family(symbolic::parse_definition(json.dump(), source));
 }
@@ -179,7 +181,7 @@ std::string to_json(const CopulaModel& model) {
 }
 
 CopulaModel parse_model(std::string_view json, std::string_view source, std::span<const FamilyInfo> families) {
-  return json::parse(json, source, [&](const Json& document) { return model_from(document, families); });
+  return json::parse(json, source, [&](const Json& document) { return model_from(document, source, families); });
 }
 
 CopulaModel read_model(const std::filesystem::path& path, std::span<const FamilyInfo> families) {

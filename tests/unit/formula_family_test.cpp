@@ -292,6 +292,9 @@ TEST(FormulaFamily, AModelFileStandsAlone) {
   EXPECT_EQ(to_json(back), json);
   const Points u = Points::Constant(1, 3, 0.3);
   EXPECT_EQ(make_copula(back, {})->log_pdf(u)(0), family.make(3, {0.5, 1.5})->log_pdf(u)(0));
+  std::string broken = json;
+  broken.replace(broken.find("(1+"), 3, "(x+");
+  EXPECT_TRUE(error_of([&] { (void)parse_model(broken, "model.json", {}); }).starts_with("model.json: "));
 }
 
 TEST(FormulaFamily, IsRotatedLikeAnyOther) {
