@@ -1,6 +1,6 @@
 # Debian 12 packages and how they are installed; sourced by examples/quickstart.sh, tests/run.sh and .ci/run.
 
-build_packages="cmake ninja-build g++ pkg-config libeigen3-dev libboost-dev libmpfr-dev libnlopt-dev libnlopt-cxx-dev libopenexr-dev
+build_packages="cmake ninja-build g++ pkg-config libeigen3-dev libboost-dev libmpfr-dev libhwy-dev libnlopt-dev libnlopt-cxx-dev libopenexr-dev
   libpng-dev libcairo2-dev libtbb-dev nlohmann-json3-dev libcli11-dev libgtest-dev"
 ci_packages="$build_packages git clang clang-format clang-tidy"
 

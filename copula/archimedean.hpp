@@ -15,25 +15,26 @@
 #include "copula/first_answer.hpp"
 #include "copula/generator.hpp"
 #include "copula/generic_route.hpp"
+#include "copula/kernels.hpp"
 #include "copula/row.hpp"
+#include "copula/tolerance.hpp"
 
 namespace sklar {
-
-/// Bounds enforced on the value returned, and tested.
-inline constexpr double kLogTolerance = 8e-14;      ///< log densities, log cdf: absolute below 1, relative above
-inline constexpr double kHTolerance = 8e-14;        ///< relative, for h and 1 - h
-inline constexpr double kInverseTolerance = 4e-13;  ///< relative, for h^-1 and 1 - h^-1
 
 template <Generator G>
 class Archimedean final : public ArchimedeanCopula {
  public:
-  Archimedean(int dim, G generator) : ArchimedeanCopula(dim), generator_(std::move(generator)) {}
+  Archimedean(int dim, G generator) : ArchimedeanCopula(dim), generator_(std::move(generator)) {
+    if constexpr (HasKernels<G>) kernels_ = generator_.kernels(dim);
+  }
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
-    for_each_row(u, reflection, out, [this](const Row& row) {
+    const bool started = u.cols() == dim() &&
+                         start(u, reflection, [&](const Kernels& kernels) { kernels.log_pdf(Rows(u), out.data()); });
+    for_each_row(u, reflection, out, started, [this](const Row& row) {
       if (row.u.size() == 1) return 0.0;
       return resolve([&]<class T>() { return log_density(RowOf<T>(row).all()); },
                      [](const auto& x) { return accept_log(x); });
@@ -42,7 +43,7 @@ class Archimedean final : public ArchimedeanCopula {
 
   void log_cdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
     require_few(reflection);
-    for_each_row(u, reflection, out, [this](const Row& row) {
+    for_each_row(u, reflection, out, false, [this](const Row& row) {
       if (std::ranges::find(row.u, 0.0) != row.u.end()) return -kInfinity;
       return resolve(
           [&]<class T>() {
@@ -55,7 +56,9 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const override {
-    for_each_row(u, reflection, out, [this, tail](const Row& row) {
+    const bool started =
+        start(u, reflection, [&](const Kernels& kernels) { kernels.conditional(Rows(u), tail, out.data()); });
+    for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;
       return resolve(
           [&]<class T>() { return log_conditional(RowOf<T>(row).all()); },
@@ -65,7 +68,9 @@ class Archimedean final : public ArchimedeanCopula {
 
   void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
                                 ColumnOut out) const override {
-    for_each_row(u, reflection, out, [this, tail](const Row& row) {
+    const bool started =
+        start(u, reflection, [&](const Kernels& kernels) { kernels.conditional_inverse(Rows(u), tail, out.data()); });
+    for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;
       const auto kernel = [&]<class T>() {
         const RowOf<T> in_type(row);
@@ -91,7 +96,7 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void log_abs_dpsi_into(int order, const ColumnRef& t, ColumnOut out) const override {
-    for_each_row(PointsRef(t), {}, out, [this, order](const Row& row) {
+    for_each_row(PointsRef(t), {}, out, false, [this, order](const Row& row) {
       return resolve([&]<class T>() { return generator_.log_abs_dpsi(order, T(row.u[0])); },
                      [](const auto& x) { return accept_log(x); });
     });
@@ -118,7 +123,7 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const override {
-    for_each_row(PointsRef(v), {}, out, [this, tail](const Row& row) {
+    for_each_row(PointsRef(v), {}, out, false, [this, tail](const Row& row) {
       const double level = row.u[0];
       if (level == 0 || level == 1) return tail == Tail::lower ? level : 1 - level;
       const auto kernel = [&]<class T>() {
@@ -172,9 +177,19 @@ class Archimedean final : public ArchimedeanCopula {
     return resolve_digits(digits, [&](int) { return generator_.log_abs_dpsi(order, Widest(t)); });
   }
 
-  // Calls answer(row) for each row without NaN; a row with NaN gives NaN.
+  // Lets the vector kernels, where there are any, answer the rows that they can.
+  template <class Call>
+  bool start(const PointsRef& u, const Reflection& reflection, const Call& call) const {
+    if (kernels_ == nullptr || u.cols() < 2 || !reflection.none()) return false;
+    call(*kernels_);
+    return true;
+  }
+
+  // Calls answer(row) for each row without NaN; a row with NaN gives NaN. @param started whether out holds answers, and
+  // NaN for the rows to be answered here.
   template <class Answer>
-  static void for_each_row(const PointsRef& u, const Reflection& reflection, ColumnOut out, const Answer& answer) {
+  static void for_each_row(const PointsRef& u, const Reflection& reflection, ColumnOut out, bool started,
+                           const Answer& answer) {
     constexpr std::size_t kOnStack = 16;
     const auto columns = static_cast<std::size_t>(u.cols());
     std::array<double, kOnStack> small;
@@ -182,6 +197,7 @@ class Archimedean final : public ArchimedeanCopula {
     const std::span<double> row(columns > kOnStack ? large.data() : small.data(), columns);
     const Reflection* reflected = reflection.none() ? nullptr : &reflection;
     for (Index i = 0; i < u.rows(); ++i) {
+      if (started && !std::isnan(out(i))) continue;
       bool missing = false;
       for (Index k = 0; k < u.cols(); ++k) {
         row[static_cast<std::size_t>(k)] = u(i, k);
@@ -299,6 +315,7 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   G generator_;
+  std::shared_ptr<const Kernels> kernels_;
 };
 
 }  // namespace sklar

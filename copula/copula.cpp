@@ -1,5 +1,7 @@
 #include "copula/copula.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -14,6 +16,18 @@ namespace {
 void require_points(const char* function, const PointsRef& u, Index lowest, Index highest) {
   require_columns(function, "u", u.cols(), lowest, highest);
   require_unit_cube(function, "u", u);
+}
+
+constexpr Index kChunk = 4096;  // rows: a few columns of them fit the innermost caches
+
+/// body(first row, number of rows) over chunks of rows, on all threads. Rows do not depend on each other, so neither
+/// number nor order matters.
+template <class Body>
+void for_each_chunk(Index rows, const Body& body) {
+  const Index chunks = (rows + kChunk - 1) / kChunk;
+  const auto work = [&](Index chunk) { body(chunk * kChunk, std::min(kChunk, rows - chunk * kChunk)); };
+  if (chunks == 1) return work(0);
+  oneapi::tbb::parallel_for(Index{0}, chunks, work);
 }
 
 /// Eigen's own exp stays within the normal numbers: 5.6e-309 for -inf, 1.8e308 for inf.
@@ -36,7 +50,9 @@ void Copula::require_digits(int digits) {
 Column Copula::log_pdf(const PointsRef& u) const {
   require_points("log_pdf", u, dim_, dim_);
   Column out(u.rows());
-  log_pdf_into(u, {}, out);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    log_pdf_into(u.middleRows(first, count), {}, out.segment(first, count));
+  });
   return out;
 }
 
@@ -54,7 +70,9 @@ Column Copula::pdf(const PointsRef& u) const {
 Column Copula::log_cdf(const PointsRef& u) const {
   require_points("log_cdf", u, dim_, dim_);
   Column out(u.rows());
-  log_cdf_into(u, {}, out);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    log_cdf_into(u.middleRows(first, count), {}, out.segment(first, count));
+  });
   return out;
 }
 
@@ -65,14 +83,18 @@ Column Copula::cdf(const PointsRef& u) const {
 Column Copula::h(const PointsRef& u) const {
   require_points("h", u, 1, dim_);
   Column out(u.rows());
-  conditional_into(u, {}, Tail::lower, out);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    conditional_into(u.middleRows(first, count), {}, Tail::lower, out.segment(first, count));
+  });
   return out;
 }
 
 Column Copula::h_upper(const PointsRef& u) const {
   require_points("h_upper", u, 1, dim_);
   Column out(u.rows());
-  conditional_into(u, {}, Tail::upper, out);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    conditional_into(u.middleRows(first, count), {}, Tail::upper, out.segment(first, count));
+  });
   return out;
 }
 
@@ -87,21 +109,30 @@ Column Copula::log_conditional_pdf(const PointsRef& u) const {
 Column Copula::h_inv(const PointsRef& u) const {
   require_points("h_inv", u, 1, dim_);
   Column out(u.rows());
-  conditional_inverse_into(u, {}, Tail::lower, out);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    conditional_inverse_into(u.middleRows(first, count), {}, Tail::lower, out.segment(first, count));
+  });
   return out;
 }
 
 Column Copula::h_inv_upper(const PointsRef& u) const {
   require_points("h_inv_upper", u, 1, dim_);
   Column out(u.rows());
-  conditional_inverse_into(u, {}, Tail::upper, out);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    conditional_inverse_into(u.middleRows(first, count), {}, Tail::upper, out.segment(first, count));
+  });
   return out;
 }
 
 Points Copula::rosenblatt(const PointsRef& u) const {
   require_points("rosenblatt", u, dim_, dim_);
   Points w(u.rows(), dim_);
-  for (int k = 0; k < dim_; ++k) conditional_into(u.leftCols(k + 1), {}, Tail::lower, w.col(k));
+  w.col(0) = u.col(0);
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    for (int k = 1; k < dim_; ++k) {
+      conditional_into(u.block(first, 0, count, k + 1), {}, Tail::lower, w.col(k).segment(first, count));
+    }
+  });
   return w;
 }
 
@@ -119,19 +150,30 @@ Points Copula::inverse_rosenblatt(const PointsRef& w, const PointsRef& given) co
     u.leftCols(fixed) = given;
   }
   u.rightCols(dim_ - fixed) = w;
-  Column next(w.rows());
-  for (Index k = fixed; k < dim_; ++k) {
-    conditional_inverse_into(u.leftCols(k + 1), {}, Tail::lower, next);
-    u.col(k) = next;
-  }
+  invert(u, fixed);
   return u;
+}
+
+void Copula::invert(Points& u, Index fixed) const {
+  for_each_chunk(u.rows(), [&](Index first, Index count) {
+    Column next(count);
+    for (Index k = std::max(fixed, Index{1}); k < dim_; ++k) {
+      conditional_inverse_into(u.block(first, 0, count, k + 1), {}, Tail::lower, next);
+      u.col(k).segment(first, count) = next;
+    }
+  });
 }
 
 Points Copula::sample(Index n, Rng& rng, const PointsRef& given) const {
   if (n < 1) throw std::invalid_argument("sample: n must be 1 or more, got " + std::to_string(n));
   require_rows("sample", "given", given.rows(), 1);
   require_columns("sample", "given", given.cols(), 0, dim_ - 1);
-  return inverse_rosenblatt(uniforms(rng, n, dim_ - given.cols()), given);
+  require_unit_cube("sample", "given", given);
+  Points u(n, dim_);
+  u.leftCols(given.cols()) = given.replicate(n, 1);
+  fill_uniforms(rng, u.rightCols(dim_ - given.cols()));
+  invert(u, given.cols());
+  return u;
 }
 
 Points Copula::sample_by(Route route, Index n, Rng& rng) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "copula/big_float.hpp"
+#include "copula/kernels.hpp"
 #include "copula/random.hpp"
 #include "copula/reflection.hpp"
 #include "copula/types.hpp"
@@ -27,7 +28,8 @@ enum class Route { conditional, frailty, radial };
 /// Points of the boundary are valid input. A coordinate 0 or 1 stands for the limit eps or 1 - eps, eps -> 0, the same
 /// eps in all coordinates: it matters in the corners, where densities and conditionals depend on the direction of
 /// approach (log_pdf may be -inf or inf there). A last coordinate or p of 0 or 1 gives 0 or 1 itself in h and h_inv.
-/// A row with NaN gives NaN; other rows are never affected.
+/// A row with NaN gives NaN; other rows are never affected. Large batches are computed on all threads of oneTBB's
+/// arena, with the same result for any number of them.
 class Copula {
  public:
   virtual ~Copula() = default;
@@ -92,8 +94,6 @@ class Copula {
   /// @throws std::invalid_argument for a number of digits that exact does not give.
   static void require_digits(int digits);
 
-  enum class Tail { lower, upper };  ///< the quantity itself or its complement
-
  private:
   friend class Rotated;
   friend class Mixture;
@@ -111,6 +111,9 @@ class Copula {
 
   /// One point of this copula rotated. Precondition: not the conditional route; has_frailty() for that of the frailty.
   virtual void draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const = 0;
+
+  // Makes uniforms, all but the leftmost fixed columns, points of the copula.
+  void invert(Points& u, Index fixed) const;
 
   int dim_;
 };

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "copula/unit_interval.hpp"
+
 namespace sklar {
 
 FileError::FileError(std::string_view path, std::string_view what)
@@ -32,6 +34,7 @@ void require_rows(std::string_view function, std::string_view argument, Index ro
 
 void require_unit_cube(std::string_view function, std::string_view argument, const PointsRef& u) {
   for (Index column = 0; column < u.cols(); ++column) {
+    if (none_outside_unit_interval(u.col(column).data(), u.rows())) continue;
     for (Index row = 0; row < u.rows(); ++row) {
       const double value = u(row, column);
       if (value < 0 || value > 1) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "copula/kernels.hpp"
 #include "copula/random.hpp"
 #include "copula/wide.hpp"
 
@@ -62,6 +63,12 @@ concept HasConditionalInverse = requires(const G& g, std::span<const Narrow> giv
 template <class G>
 concept HasMargin = requires(const G& g, const Narrow& u) {
   { g.margin(u) } -> std::same_as<std::pair<Narrow, Narrow>>;
+};
+
+/// Optional: vector kernels of the copula of a dimension, or null where the parameters have none.
+template <class G>
+concept HasKernels = requires(const G& g, int dim) {
+  { g.kernels(dim) } -> std::same_as<std::shared_ptr<const Kernels>>;
 };
 
 /// Optional: log of the frailty, whose Laplace transform is psi, and whether there is one for these parameters.

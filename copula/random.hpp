@@ -15,12 +15,17 @@ using Rng = std::mt19937_64;
   return (static_cast<double>(rng() >> 12) + 0.5) * 0x1p-52;
 }
 
-/// rows x columns uniforms, filled row by row, so that the first rows do not depend on how many follow.
+/// Uniforms for every entry, row by row, so that the first rows do not depend on how many follow.
+inline void fill_uniforms(Rng& rng, PointsOut w) {
+  for (Index row = 0; row < w.rows(); ++row) {
+    for (Index column = 0; column < w.cols(); ++column) w(row, column) = uniform(rng);
+  }
+}
+
+/// rows x columns uniforms in that order.
 [[nodiscard]] inline Points uniforms(Rng& rng, Index rows, Index columns) {
   Points w(rows, columns);
-  for (Index row = 0; row < rows; ++row) {
-    for (Index column = 0; column < columns; ++column) w(row, column) = uniform(rng);
-  }
+  fill_uniforms(rng, w);
   return w;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "copula/coefficients.hpp"
 #include "copula/numerics.hpp"
 
 namespace sklar {
@@ -62,6 +63,16 @@ class ScaledPolynomials {
     const T slope = sums.slope / sums.there;
     if (relative > 0) value.error += moved_by(relative, n, distance, sums.rise / sums.here - slope);
     return {value, slope};
+  }
+
+  /// R_n in double for vector kernels.
+  [[nodiscard]] Coefficients coefficients(int n) const {
+    Coefficients result{.c = {}, .scale = std::ldexp(1.0, table_->rule().rule.exponent(n))};
+    for (const Narrow& c : table_->template row<Narrow>(n)) {
+      result.c.push_back(c.value);
+      result.relative_error = std::max(result.relative_error, c.error / c.value);
+    }
+    return result;
   }
 
  private:

@@ -8,6 +8,7 @@ namespace sklar {
 
 using Points = Eigen::ArrayXXd;                       ///< n x d, column-major
 using PointsRef = Eigen::Ref<const Eigen::ArrayXXd>;  ///< read-only view of n x d points; pass as const PointsRef&
+using PointsOut = Eigen::Ref<Eigen::ArrayXXd>;        ///< caller-owned n x d output
 using Column = Eigen::ArrayXd;                        ///< one number an observation
 using ColumnRef = Eigen::Ref<const Eigen::ArrayXd>;   ///< read-only view of a column
 using ColumnOut = Eigen::Ref<Eigen::ArrayXd>;         ///< caller-owned output

@@ -36,6 +36,9 @@ struct Constants {
   T log_rest;  // log(1 - theta)
 };
 
+/// Vector kernels, or null for theta without. @param polynomial R_(d+1) in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+
 class AliMikhailHaq {
  public:
   AliMikhailHaq(int dim, double theta)
@@ -112,6 +115,10 @@ class AliMikhailHaq {
     const T target = -log(p);
     const T s = solve_increasing(rate, target, target / rate(T(0)).second);
     return -log_value_at(sums, exp(-s), -expm1(-s));
+  }
+
+  [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
+    return amh::kernels(constants<Narrow>().theta.value, polynomials_.coefficients(dim + 1));
   }
 
   [[nodiscard]] bool has_frailty() const { return positive_; }

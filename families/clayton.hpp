@@ -37,6 +37,9 @@ struct Constants {
   std::vector<T> log_rising;  // entry k: sum_{i<k} log(1 + i theta)
 };
 
+/// Vector kernels, or null for theta without. @param log_rising sum_{i<k} log(1 + i theta) for k = 0 .. d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, std::vector<double> log_rising);
+
 class Clayton {
  public:
   Clayton(int dim, double theta)
@@ -114,6 +117,13 @@ class Clayton {
     T missing(0);  // 1 - S
     for (const T& value : given) missing -= expm1(scaled(value));
     return log(missing + s * exp(y)) / T(theta_);
+  }
+
+  [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
+    std::vector<double> log_rising;
+    for (int k = 0; k <= dim; ++k)
+      log_rising.push_back(constants<Narrow>().log_rising[static_cast<std::size_t>(k)].value);
+    return clayton::kernels(theta_, std::move(log_rising));
   }
 
   [[nodiscard]] bool has_frailty() const { return theta_ > 0; }

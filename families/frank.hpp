@@ -46,6 +46,9 @@ struct Constants {
   T log_theta_by_q;
 };
 
+/// Vector kernels, or null for theta without. @param polynomial R_d in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+
 class Frank {
  public:
   Frank(int dim, double theta)
@@ -142,6 +145,10 @@ class Frank {
     const T target = -log(p);
     const T s = solve_increasing(rate, target, target / rate(T(0)).second);
     return minus_log_value_at(before, exp(-s), -expm1(-s));
+  }
+
+  [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
+    return frank::kernels(constants<Narrow>().theta.value, polynomials_.coefficients(dim));
   }
 
   [[nodiscard]] bool has_frailty() const { return positive_; }

@@ -40,6 +40,9 @@ struct Rule {
   }
 };
 
+/// Vector kernels, or null for theta without. @param polynomial R_d in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+
 class Gumbel {
  public:
   Gumbel(int dim, double theta) : theta_(theta), polynomials_(dim + 1, Rule{theta}) {}
@@ -97,6 +100,10 @@ class Gumbel {
     const auto rate = [&](const T& log_growth) { return conditional.decrease(log_growth); };
     const T target = -log(p);
     return conditional.value(solve_increasing(rate, target, target / conditional.slope_at_0()));
+  }
+
+  [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
+    return gumbel::kernels(theta_, polynomials_.coefficients(dim));
   }
 
   [[nodiscard]] bool has_frailty() const { return true; }

@@ -39,6 +39,9 @@ struct Constants {
   T log_theta;
 };
 
+/// Vector kernels, or null for theta without. @param polynomial R_d in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+
 class Joe {
  public:
   Joe(int dim, double theta)
@@ -110,6 +113,10 @@ class Joe {
     const auto rate = [&](const T& s) { return conditional.decrease(s); };
     const T target = -log(p);
     return conditional.minus_log_value(solve_increasing(rate, target, target / conditional.decrease(T(0)).second));
+  }
+
+  [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
+    return joe::kernels(constants<Narrow>().theta.value, polynomials_.coefficients(dim));
   }
 
   [[nodiscard]] bool has_frailty() const { return true; }

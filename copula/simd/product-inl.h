@@ -1,0 +1,68 @@
+/// The products of weights that Frank's, Joe's and Ali-Mikhail-Haq's densities are functions of, for one instruction
+/// set; included once for each (see Highway's foreach_target.h).
+
+#if defined(SKLAR_COPULA_SIMD_PRODUCT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKLAR_COPULA_SIMD_PRODUCT_INL_H_
+#undef SKLAR_COPULA_SIMD_PRODUCT_INL_H_
+#else
+#define SKLAR_COPULA_SIMD_PRODUCT_INL_H_
+#endif
+
+#include "copula/simd/polynomial-inl.h"
+#include "copula/simd/rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sklar::simd::HWY_NAMESPACE::formulas {
+
+/// x = s prod a_i and w = 1 - x, 0 < s <= 1, from the a_i and the 1 - a_i, neither of which cancels.
+template <class D>
+class Product {
+ public:
+  explicit Product(D d) : value_(hn::Set(d, 1.0)), complement_(hn::Zero(d)) {}
+
+  HWY_INLINE void multiply(D d, Vec<D> a, Vec<D> complement) {
+    complement_ = hn::MulAdd(hn::Sub(hn::Set(d, 1.0), complement_), complement, complement_);
+    value_ = hn::Mul(value_, a);
+  }
+
+  HWY_INLINE Vec<D> complement() const { return complement_; }
+
+  /// x, w, and whether they come from the 1 - a_i: where x is above 1/2.
+  struct Parts {
+    Vec<D> x, w;
+    Mask<D> near_one;
+  };
+
+  /// @param rest 1 - s.
+  HWY_INLINE Parts parts(D d, double s, double rest) const {
+    const Vec<D> one = hn::Set(d, 1.0);
+    const Vec<D> x = hn::Mul(hn::Set(d, s), value_), w = hn::MulAdd(hn::Set(d, s), complement_, hn::Set(d, rest));
+    const auto near_one = hn::Lt(w, hn::Set(d, 0.5));
+    return {hn::IfThenElse(near_one, hn::Sub(one, w), x), hn::IfThenElse(near_one, w, hn::Sub(one, x)), near_one};
+  }
+
+ private:
+  Vec<D> value_, complement_;
+};
+
+/// log R(x/w) - b log w, 0 <= b <= 1, and its error in units of 2^-52.
+/// @param of_x, of_w the relative errors of x and of w where they are computed, in these units.
+template <class D>
+HWY_INLINE Estimate<D> log_ratio_term(D d, const Coefficients& r, const typename Product<D>::Parts& parts, double b,
+                                      Vec<D> of_x, Vec<D> of_w) {
+  const LogPolynomial<D> polynomial = log_polynomial(d, r, parts.x, parts.w);
+  const Vec<D> log_w = hn::Mul(hn::Set(d, b), log(d, parts.w));
+  // With 1 - x for w and the reverse the derivative in log x is slope / w + b x / w, that in log w by w/x of it.
+  const Vec<D> derivative = hn::MulAdd(hn::Set(d, b), parts.x, polynomial.slope);
+  const Vec<D> moved = hn::IfThenElse(parts.near_one, hn::Div(hn::Mul(derivative, of_w), parts.x),
+                                      hn::Div(hn::Mul(derivative, of_x), parts.w));
+  const Vec<D> sizes = hn::Add(hn::Abs(polynomial.log), hn::Abs(log_w));
+  const auto n = static_cast<double>(r.c.size());
+  const Vec<D> steps = hn::Add(moved, hn::Set(d, n + 2 + r.relative_error / kEpsilon));
+  return {hn::Sub(polynomial.log, log_w), hn::MulAdd(hn::Set(d, 2.0), sizes, steps)};
+}
+
+}  // namespace sklar::simd::HWY_NAMESPACE::formulas
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,11 @@
+#pragma once
+/// The accuracy of every Archimedean copula.
+
+namespace sklar {
+
+/// Bounds enforced on the value returned, and tested.
+inline constexpr double kLogTolerance = 8e-14;      ///< log densities, log cdf: absolute below 1, relative above
+inline constexpr double kHTolerance = 8e-14;        ///< relative, for h and 1 - h
+inline constexpr double kInverseTolerance = 4e-13;  ///< relative, for h^-1 and 1 - h^-1
+
+}  // namespace sklar

@@ -1,0 +1,203 @@
+// Vector kernels of the Ali-Mikhail-Haq copula. Errors are counted in units of 2^-52.
+//
+// In dimension 2, with G = 1 - theta (1-u)(1-v) and D(u) = 1 - theta (1-u):
+//   c = (D(u) D(v) + theta u v) / G^3,  h = v D(v) / G^2,
+//   1 - h = (1-v) (D(v) (1 - theta + 2 theta u) + theta^2 (1-v) u^2) / G^2 for theta > 0,
+// each written as a sum of positive terms for either sign of theta.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "families/amh_simd.cpp"
+#include "copula/instruction_sets.hpp"
+//
+#include <hwy/foreach_target.h>
+//
+#include "copula/simd/product-inl.h"
+#include "copula/simd/rows-inl.h"
+#include "families/amh.hpp"
+
+#ifndef SKLAR_FAMILIES_AMH_SIMD_ONCE
+#define SKLAR_FAMILIES_AMH_SIMD_ONCE
+namespace sklar::families::amh {
+
+/// What depends on theta and the dimension alone.
+struct KernelConstants {
+  KernelConstants(double parameter, Coefficients coefficients)
+      : theta(parameter),
+        size(std::abs(parameter)),
+        rest(1 - parameter),
+        log_rest(std::log1p(-parameter)),
+        polynomial(std::move(coefficients)) {}
+
+  double theta, size;  // theta and |theta|
+  double rest;         // 1 - theta
+  double log_rest;
+  Coefficients polynomial;  // R_(d+1)
+};
+
+}  // namespace sklar::families::amh
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace sklar::families::amh::HWY_NAMESPACE {
+
+using namespace sklar::simd;
+using namespace sklar::simd::HWY_NAMESPACE::formulas;
+
+/// u, 1 - u and D(u).
+template <class D>
+struct Coordinate {
+  HWY_INLINE Coordinate(D d, const KernelConstants& c, Vec<D> u)
+      : value(u),
+        upper(hn::Sub(hn::Set(d, 1.0), u)),
+        scaling(c.theta > 0 ? hn::MulAdd(hn::Set(d, c.theta), u, hn::Set(d, c.rest))
+                            : hn::MulAdd(hn::Set(d, c.size), upper, hn::Set(d, 1.0))) {}
+
+  Vec<D> value, upper, scaling;
+};
+
+/// G: 1 - theta + theta (u + v (1-u)) or 1 + |theta| (1-u)(1-v).
+template <class D>
+HWY_INLINE Vec<D> denominator(D d, const KernelConstants& c, const Coordinate<D>& u, const Coordinate<D>& v) {
+  if (c.theta > 0) {
+    return hn::MulAdd(hn::Set(d, c.theta), hn::MulAdd(v.value, u.upper, u.value), hn::Set(d, c.rest));
+  }
+  return hn::MulAdd(hn::Mul(hn::Set(d, c.size), u.upper), v.upper, hn::Set(d, 1.0));
+}
+
+template <class D>
+HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& rows) {
+  const Coordinate<D> u(d, c, rows[0]), v(d, c, rows[1]);
+  Vec<D> numerator;
+  if (c.theta > 0) {
+    numerator = hn::MulAdd(u.scaling, v.scaling, hn::Mul(hn::Mul(hn::Set(d, c.theta), u.value), v.value));
+  } else {  // 1 - s + s ((1-u) + (1-v) + (1-uv)) + s^2 (1-u)(1-v), s = |theta|
+    const Vec<D> size = hn::Set(d, c.size), upper = hn::MulAdd(u.value, v.upper, u.upper);
+    const Vec<D> inner = hn::MulAdd(hn::Mul(size, u.upper), v.upper, hn::Add(hn::Add(u.upper, v.upper), upper));
+    numerator = hn::MulAdd(size, inner, hn::Set(d, 1 - c.size));
+  }
+  const Vec<D> g = denominator(d, c, u, v);
+  const Vec<D> value = log(d, hn::Div(numerator, hn::Mul(hn::Mul(g, g), g)));
+  const Vec<D> error = hn::MulAdd(hn::Set(d, 2.0), hn::Abs(value), hn::Set(d, 20.0));
+  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)},
+                    hn::And(is_inside(d, u.value), is_inside(d, v.value)));
+}
+
+/// log c = (d+1) log(1-theta) - 2 log prod D(u_i) - log w + log R_(d+1)(x/w), x = theta prod u_i / D(u_i).
+template <class D>
+HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
+  const auto n = static_cast<double>(rows.size());
+  Product<D> product(d);
+  Vec<D> scalings = hn::Set(d, 1.0);
+  auto inside = is_inside(d, rows[0]);
+  for (Index k = 0; k < rows.size(); ++k) {
+    const Coordinate<D> u(d, c, rows[k]);
+    inside = hn::And(inside, is_inside(d, u.value));
+    const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), u.scaling);
+    product.multiply(d, hn::Mul(u.value, inverse), hn::Mul(hn::Mul(hn::Set(d, c.rest), u.upper), inverse));
+    scalings = hn::Mul(scalings, u.scaling);
+  }
+  const auto parts = product.parts(d, c.theta, c.rest);
+  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.5 * n + 1), hn::Set(d, n / 2 + 5));
+  const Vec<D> log_scalings = log(d, scalings);
+  const double constant = (n + 1) * c.log_rest;
+  const Vec<D> value = hn::Add(hn::NegMulAdd(hn::Set(d, 2.0), log_scalings, hn::Set(d, constant)), term.value);
+  const Vec<D> error =
+      hn::Add(hn::MulAdd(hn::Set(d, -4.0), log_scalings, hn::Set(d, 3 * n - 2 * constant)), term.error);
+  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
+  if (rows.size() == 2) return log_pdf_pair(d, c, rows);
+  return log_pdf_rows(d, c, rows);
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Coordinate<D> u(d, c, rows[0]), v(d, c, rows[1]);
+  const Vec<D> inverse_g = hn::Div(hn::Set(d, 1.0), denominator(d, c, u, v)), square = hn::Mul(inverse_g, inverse_g);
+  Vec<D> value;
+  if (tail == Tail::lower) {
+    value = hn::Mul(hn::Mul(v.value, v.scaling), square);
+  } else if (c.theta > 0) {
+    const Vec<D> first = hn::Mul(v.scaling, hn::MulAdd(hn::Set(d, 2 * c.theta), u.value, hn::Set(d, c.rest)));
+    const Vec<D> second = hn::Mul(hn::Mul(hn::Set(d, c.theta * c.theta), v.upper), hn::Mul(u.value, u.value));
+    value = hn::Mul(hn::Mul(v.upper, hn::Add(first, second)), square);
+  } else {  // 1 - s + 2 s (1-u) + s (1-v) (1 + s (1-u)^2), s = |theta|
+    const Vec<D> size = hn::Set(d, c.size);
+    const Vec<D> last = hn::MulAdd(hn::Mul(size, u.upper), u.upper, hn::Set(d, 1.0));
+    const Vec<D> inner = hn::MulAdd(v.upper, last, hn::Add(u.upper, u.upper));
+    value = hn::Mul(hn::Mul(v.upper, hn::MulAdd(size, inner, hn::Set(d, 1 - c.size))), square);
+  }
+  return probability_within(d, value, hn::Set(d, 20 * kEpsilon), kHTolerance,
+                            hn::And(is_inside(d, u.value), is_inside(d, v.value)));
+}
+
+/// The root z of y z (1 + y z) = p y (1 + y), y = x/w, of x = theta u / D(u), w = (1-theta) / D(u), and from it
+/// v = (1-theta) z / ((1-theta) (w + x z) + theta w (1-z)).
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Vec<D> one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), four = hn::Set(d, 4.0), rest = hn::Set(d, c.rest);
+  const Coordinate<D> u(d, c, rows[0]);
+  const Vec<D> p = rows[1], upper_p = hn::Sub(one, p), inverse = hn::Div(one, u.scaling);
+  const Vec<D> x = hn::Mul(hn::Mul(hn::Set(d, c.theta), u.value), inverse), w = hn::Mul(rest, inverse);
+  const Vec<D> sum = c.theta > 0
+                         ? hn::Add(one, x)
+                         : hn::Mul(hn::MulAdd(hn::Set(d, 2 * c.size), u.upper, hn::Set(d, 1 - c.size)), inverse);
+  const Vec<D> square = c.theta > 0 ? hn::MulAdd(w, w, hn::Mul(hn::Mul(four, x), p))
+                                    : hn::NegMulAdd(hn::Mul(four, x), upper_p, hn::Mul(sum, sum));
+  const Vec<D> root = hn::Sqrt(square);
+  const Vec<D> z = hn::Div(hn::Mul(two, p), hn::Add(w, root));
+  const Vec<D> distance = hn::Div(hn::Mul(two, upper_p), hn::Add(sum, root));
+  const Vec<D> divisor = c.theta > 0 ? hn::MulAdd(x, z, w) : hn::NegMulAdd(x, distance, one);
+  Vec<D> scaled;  // (w + x z) (1 - theta a(v))
+  if (c.theta > 0) {
+    scaled = hn::MulAdd(rest, divisor, hn::Mul(hn::Mul(hn::Set(d, c.theta), w), distance));
+  } else {
+    scaled = hn::MulAdd(hn::Set(d, c.size), z, divisor);
+  }
+  const Vec<D> value = hn::Div(tail == Tail::lower ? hn::Mul(rest, z) : hn::Mul(distance, w), scaled);
+  return probability_within(d, value, hn::Set(d, 40 * kEpsilon), kInverseTolerance,
+                            hn::And(is_inside(d, u.value), is_inside(d, p)));
+}
+
+const KernelTable<KernelConstants>* table() {
+  static constexpr KernelTable<KernelConstants> kTable = {
+      .log_pdf =
+          [](const KernelConstants& c, const Rows& rows, double* out) {
+            if (rows.columns > 2 && (c.theta < 0 || !c.polynomial.usable())) return leave_all(rows, out);
+            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
+          },
+      .conditional =
+          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
+            if (rows.columns != 2) return leave_all(rows, out);
+            for_each_row(rows, out,
+                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
+          },
+      .conditional_inverse =
+          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
+            if (rows.columns != 2) return leave_all(rows, out);
+            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+              return conditional_inverse_row(d, c, tail, columns);
+            });
+          }};
+  return &kTable;
+}
+
+}  // namespace sklar::families::amh::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sklar::families::amh {
+
+HWY_EXPORT(table);
+
+std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial) {
+  constexpr double kSmallest = 1e-100, kRange = 1e-290;  // x, and (1-theta)^d <= prod D(u_i), are normal numbers
+  const auto dim = static_cast<double>(polynomial.c.size() - 1);
+  if (!(std::abs(theta) > kSmallest && std::pow(1 - theta, std::max(dim, 4.0)) > kRange)) return nullptr;
+  return make_kernels(KernelConstants(theta, std::move(polynomial)), *HWY_DYNAMIC_DISPATCH(table)());
+}
+
+}  // namespace sklar::families::amh
+#endif

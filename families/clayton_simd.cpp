@@ -1,0 +1,153 @@
+// Vector kernels of the Clayton copula, theta > 0. Errors are counted in units of 2^-52: exp, log, expm1 and log1p are
+// within 1.5, an exponent z is off by 2 z.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "families/clayton_simd.cpp"
+#include "copula/instruction_sets.hpp"
+//
+#include <hwy/foreach_target.h>
+//
+#include "copula/simd/math-inl.h"
+#include "copula/simd/rows-inl.h"
+#include "families/clayton.hpp"
+
+#ifndef SKLAR_FAMILIES_CLAYTON_SIMD_ONCE
+#define SKLAR_FAMILIES_CLAYTON_SIMD_ONCE
+namespace sklar::families::clayton {
+
+/// What depends on theta and the dimension alone.
+struct KernelConstants {
+  double theta;
+  std::vector<double> log_rising;  // entry k: sum_{i<k} log(1 + i theta)
+};
+
+}  // namespace sklar::families::clayton
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace sklar::families::clayton::HWY_NAMESPACE {
+
+using namespace sklar::simd;
+using namespace sklar::simd::HWY_NAMESPACE::formulas;
+
+/// sum expm1(-theta log u_i) over some coordinates and what else the formulas take of them.
+template <class D>
+struct Sums {
+  HWY_INLINE Sums(D d, const KernelConstants& c, const Columns<D>& rows, Index count)
+      : growth(hn::Zero(d)), logs(growth), inside(is_inside(d, rows[0])) {
+    const bool few = count <= 2;  // two terms need no compensation
+    Sum<D> growths(d), log_sum(d);
+    for (Index k = 0; k < count; ++k) {
+      const Vec<D> u = rows[k];
+      inside = hn::And(inside, is_inside(d, u));
+      const Vec<D> log_u = log(d, u), growth_u = expm1(d, hn::Mul(hn::Set(d, -c.theta), log_u));
+      if (few) {
+        growth = hn::Add(growth, growth_u);
+        logs = hn::Add(logs, log_u);
+      } else {
+        growths.add(d, growth_u);
+        log_sum.add(d, log_u);
+      }
+    }
+    if (few) return;
+    growth = growths.value();
+    logs = log_sum.value();
+  }
+
+  Vec<D> growth, logs;
+  Mask<D> inside;
+};
+
+/// Error of log1p(x) in units of 2^-52, x of relative error e (1 + log1p(x)), by x/(1+x) <= min(1, log1p(x)).
+template <class D>
+HWY_INLINE Vec<D> error_of_log1p(D d, Vec<D> value, double e) {
+  const Vec<D> of_x = hn::MulAdd(hn::Set(d, e), value, hn::Set(d, e));
+  return hn::MulAdd(of_x, hn::Min(value, hn::Set(d, 1.0)), hn::Mul(hn::Set(d, 1.5), value));
+}
+
+/// log c = sum_{k<d} log(1 + k theta) - (1 + theta) sum log u_i - (d + 1/theta) log(1 + sum expm1(-theta log u_i)).
+template <class D>
+HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
+  const Sums<D> sums(d, c, rows, rows.size());
+  const double n = static_cast<double>(rows.size()), power = n + 1 / c.theta, rising = c.log_rising.back();
+  const Vec<D> log_sum = log1p(d, sums.growth);
+  const Vec<D> front = hn::NegMulAdd(hn::Set(d, 1 + c.theta), sums.logs, hn::Set(d, rising));
+  const Vec<D> value = hn::NegMulAdd(hn::Set(d, power), log_sum, front);
+  const Vec<D> of_logs = hn::MulAdd(hn::Set(d, -3 * (1 + c.theta)), sums.logs, hn::Set(d, 2 * rising));
+  const Vec<D> error = hn::MulAdd(hn::Set(d, power), error_of_log1p(d, log_sum, 2.5), of_logs);
+  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, sums.inside);
+}
+
+/// log h = -(j + 1/theta) log1p(E/S), E = expm1(-theta log v), S = 1 + the sum over the j given.
+template <class D>
+HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Sums<D> given(d, c, rows, last);
+  const double power = static_cast<double>(last) + 1 / c.theta;
+  const Vec<D> v = rows[last], sum = hn::Add(given.growth, hn::Set(d, 1.0));
+  const Vec<D> exponent = hn::Mul(hn::Set(d, -c.theta), log(d, v));
+  const Vec<D> ratio = hn::Div(expm1(d, exponent), sum), log_growth = log1p(d, ratio);
+  const Vec<D> y = hn::Mul(hn::Set(d, -power), log_growth);
+  // Of E: 1.5 + 2 exponent e^exponent/E; of S: 2.5 (1 + log S) at most, log S <= exponent sizes of the given.
+  const Vec<D> of_ratio =
+      hn::MulAdd(hn::Set(d, 2.0), exponent, hn::MulAdd(hn::Set(d, 2.5), log(d, sum), hn::Set(d, 8.0)));
+  const Vec<D> share = hn::Min(log_growth, hn::Set(d, 1.0));
+  const Vec<D> error = hn::MulAdd(hn::Set(d, power), hn::Mul(of_ratio, share), hn::Mul(hn::Set(d, -2.0), y));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kHTolerance,
+                     hn::And(given.inside, is_inside(d, v)));
+}
+
+/// log v = -log1p(S expm1(-log p / (j + 1/theta))) / theta.
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Sums<D> given(d, c, rows, last);
+  const double power = static_cast<double>(last) + 1 / c.theta;
+  const Vec<D> p = rows[last], sum = hn::Add(given.growth, hn::Set(d, 1.0));
+  const Vec<D> exponent = hn::Mul(hn::Set(d, -1 / power), log(d, p));
+  const Vec<D> growth = hn::Mul(expm1(d, exponent), sum), log_growth = log1p(d, growth);
+  const Vec<D> y = hn::Mul(hn::Set(d, -1 / c.theta), log_growth);
+  const Vec<D> of_growth =
+      hn::MulAdd(hn::Set(d, 2.5), log(d, sum), hn::MulAdd(hn::Set(d, 2.0), exponent, hn::Set(d, 8.0)));
+  const Vec<D> share = hn::Min(log_growth, hn::Set(d, 1.0));
+  const Vec<D> error = hn::MulAdd(hn::Set(d, 1 / c.theta), hn::Mul(of_growth, share), hn::Mul(hn::Set(d, -2.0), y));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kInverseTolerance,
+                     hn::And(given.inside, is_inside(d, p)));
+}
+
+const KernelTable<KernelConstants>* table() {
+  static constexpr KernelTable<KernelConstants> kTable = {
+      .log_pdf =
+          [](const KernelConstants& c, const Rows& rows, double* out) {
+            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
+          },
+      .conditional =
+          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
+            for_each_row(rows, out,
+                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
+          },
+      .conditional_inverse =
+          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
+            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+              return conditional_inverse_row(d, c, tail, columns);
+            });
+          }};
+  return &kTable;
+}
+
+}  // namespace sklar::families::clayton::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sklar::families::clayton {
+
+HWY_EXPORT(table);
+
+std::shared_ptr<const Kernels> kernels(double theta, std::vector<double> log_rising) {
+  constexpr double kSmallest = 1e-100;  // far above it 1/theta leaves the range of double
+  if (!(theta > kSmallest)) return nullptr;
+  return make_kernels(KernelConstants{theta, std::move(log_rising)}, *HWY_DYNAMIC_DISPATCH(table)());
+}
+
+}  // namespace sklar::families::clayton
+#endif

@@ -1,0 +1,84 @@
+// The vector kernels of every instruction set of this machine, through the public calls, against many digits.
+
+#include <gtest/gtest.h>
+
+#include "copula/archimedean_copula.hpp"
+#include "copula/tolerance.hpp"
+#include "families/registry.hpp"
+#include "tests/support/family_cases.hpp"
+#include "tests/support/instruction_sets.hpp"
+
+namespace sklar::test {
+namespace {
+
+constexpr int kDigits = 30;
+
+struct Case {
+  Quantity quantity;
+  Column (Copula::*evaluate)(const PointsRef&) const;
+  double tolerance;
+  bool relative;  ///< else absolute below 1
+};
+
+constexpr Case kCases[] = {{Quantity::log_pdf, &Copula::log_pdf, kLogTolerance, false},
+                           {Quantity::h, &Copula::h, kHTolerance, true},
+                           {Quantity::h_upper, &Copula::h_upper, kHTolerance, true},
+                           {Quantity::h_inv, &Copula::h_inv, kInverseTolerance, true},
+                           {Quantity::h_inv_upper, &Copula::h_inv_upper, kInverseTolerance, true}};
+
+/// Points of the copula, of the cube, and towards its faces.
+Points points_for(const Copula& copula, Index each) {
+  Rng rng(7);
+  const int dim = copula.dim();
+  Points u(3 * each, dim);
+  u.topRows(each) = copula.sample(each, rng);
+  u.bottomRows(2 * each) = uniforms(rng, 2 * each, dim);
+  for (Index i = 2 * each; i < 3 * each; ++i) {
+    for (int k = 0; k < dim; ++k) {
+      const double distance = std::exp(-30 * uniform(rng));
+      u(i, k) = uniform(rng) < 0.5 ? distance : 1 - distance;
+    }
+  }
+  return u;
+}
+
+void expect_within(const Case& c, const Column& values, const std::vector<BigFloat>& exact, const Points& u) {
+  const WorkingPrecision precision(kDigits + 10);
+  for (Index i = 0; i < u.rows(); ++i) {
+    const BigFloat& expected = exact[static_cast<std::size_t>(i)];
+    if (const auto rounded = static_cast<double>(expected); std::isinf(rounded)) {
+      ASSERT_EQ(values(i), rounded) << "quantity " << static_cast<int>(c.quantity) << " at " << u.row(i);
+      continue;
+    }
+    const BigFloat size = abs(expected), scale = c.relative || size > 1 ? size : BigFloat(1);
+    if (static_cast<double>(size) < std::numeric_limits<double>::min()) continue;  // rounded to a subnormal number
+    const auto error = static_cast<double>(abs(BigFloat(values(i)) - expected) / scale);
+    ASSERT_LE(error, 1.01 * c.tolerance + 0x1p-53) << "quantity " << static_cast<int>(c.quantity) << " at " << u.row(i);
+  }
+}
+
+class Kernels : public testing::TestWithParam<FamilyInfo> {};
+
+TEST_P(Kernels, AnswerWithinTheTolerance) {
+  for (const int dim : {2, 3, 10}) {
+    for (const Theta& theta : GetParam().examples) {
+      if (!GetParam().admits(dim, theta)) continue;
+      const FamilyCase family_case{&GetParam(), dim, theta};
+      SCOPED_TRACE(family_case.name());
+      const auto judge = std::dynamic_pointer_cast<const ArchimedeanCopula>(GetParam().make(dim, theta));
+      if (judge == nullptr) continue;  // independence
+      const Points u = points_for(*judge, dim == 2 ? 100 : 20);
+      for (const Case& c : kCases) {
+        const std::vector<BigFloat> exact = judge->exact(c.quantity, u, kDigits);
+        for_each_target([&] { expect_within(c, (*GetParam().make(dim, theta).*c.evaluate)(u), exact, u); });
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Family, Kernels, testing::ValuesIn(families::all()),
+                         [](const auto& family) { return family.param.name; });
+
+}  // namespace
+}  // namespace sklar::test
