@@ -18,6 +18,8 @@ double scaled(Scale scale, double value) {
       return value > 0 ? std::log10(value) : kNan;
     case Scale::square_root:
       return value >= 0 ? std::sqrt(value) : kNan;
+    case Scale::digits:
+      return value > 0 && value < 1 ? -std::log10(-std::log10(value)) : kNan;
     case Scale::linear:
       break;
   }
@@ -74,6 +76,10 @@ std::vector<Tick> axis_ticks(const Axis& axis) {
   };
   if (!axis.ticks.empty()) {
     for (const double value : axis.ticks) add(value, to_text(value));
+  } else if (axis.scale == Scale::digits) {
+    for (const int count : {1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300}) {
+      add(std::pow(10, -count), "10^{-" + std::to_string(count) + "}");
+    }
   } else if (axis.scale == Scale::logarithmic) {
     const int first = static_cast<int>(std::ceil(std::log10(axis.low) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));

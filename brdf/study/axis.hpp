@@ -7,7 +7,13 @@
 
 namespace sklar::brdf {
 
-enum class Scale { linear, logarithmic, square_root };
+enum class Scale {
+  linear,
+  logarithmic,
+  square_root,
+  digits  ///< the number of digits -log10(value), logarithmic: errors below 1, from single precision to hundreds of
+          ///< digits
+};
 
 struct Axis {
   std::string label = {};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <stdexcept>
 
@@ -111,6 +112,36 @@ void Canvas::line(const std::vector<Point>& points, const Colour& colour, double
   for (const Point& point : points) cairo_line_to(sheet_->cairo, point.x, point.y);
   cairo_stroke(sheet_->cairo);
   cairo_set_dash(sheet_->cairo, nullptr, 0, 0);
+}
+
+void Canvas::marker(Point centre, Marker marker, const Colour& colour) {
+  constexpr double kRadius = 4.2;  // of the circle; the others have about its area
+  const auto polygon = [&](std::initializer_list<Point> corners) {
+    for (const Point& p : corners) cairo_line_to(sheet_->cairo, centre.x + p.x * kRadius, centre.y + p.y * kRadius);
+  };
+  cairo_new_path(sheet_->cairo);
+  switch (marker) {
+    case Marker::none:
+      return;
+    case Marker::circle:
+      cairo_arc(sheet_->cairo, centre.x, centre.y, kRadius, 0, 2 * std::numbers::pi);
+      break;
+    case Marker::square:
+      polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
+      break;
+    case Marker::triangle:
+      polygon({{0, -1.3}, {1.2, 0.85}, {-1.2, 0.85}});
+      break;
+    case Marker::diamond:
+      polygon({{0, -1.35}, {1.15, 0}, {0, 1.35}, {-1.15, 0}});
+      break;
+  }
+  cairo_close_path(sheet_->cairo);
+  sheet_->colour(colour);
+  cairo_fill_preserve(sheet_->cairo);
+  sheet_->colour({1, 1, 1});  // a rim keeps markers apart where they overlap
+  cairo_set_line_width(sheet_->cairo, 0.8);
+  cairo_stroke(sheet_->cairo);
 }
 
 void Canvas::picture(Point corner, const Bytes& bytes) {

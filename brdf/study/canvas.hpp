@@ -8,6 +8,7 @@
 
 #include "brdf/render/image.hpp"
 #include "brdf/study/axis.hpp"
+#include "brdf/study/marker.hpp"
 
 namespace sklar::brdf {
 
@@ -38,6 +39,7 @@ class Canvas {
   void fill(const Box& box, const Colour& colour);
   void stroke(const Box& box, const Colour& colour, double width);
   void line(const std::vector<Point>& points, const Colour& colour, double width, bool dashed = false);
+  void marker(Point centre, Marker marker, const Colour& colour);
   void picture(Point corner, const Bytes& bytes);
 
   /// Text on a baseline at `at`; align is the share of the width left of it. `_{...}` is lowered, `^{...}` raised.

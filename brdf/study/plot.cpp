@@ -66,7 +66,8 @@ void draw_lines(Canvas& canvas, const Box& box, const LinePlot& plot, const Axis
   for (const Line& line : plot.lines) {
     std::vector<Point> points;
     const auto flush = [&] {
-      canvas.line(points, line.colour, line.width, line.dashed);
+      if (line.width > 0) canvas.line(points, line.colour, line.width, line.dashed);
+      for (const Point& point : points) canvas.marker(point, line.marker, line.colour);
       points.clear();
     };
     for (std::size_t n = 0; n < line.x.size(); ++n) {
@@ -172,7 +173,8 @@ std::vector<Line> legend_of(const std::vector<Panel>& panels) {
     for (const Line& line : plot->lines) {
       const bool known =
           std::any_of(entries.begin(), entries.end(), [&](const Line& e) { return e.label == line.label; });
-      if (!line.label.empty() && !known) entries.push_back({line.label, {}, {}, line.colour, line.dashed, line.width});
+      if (line.label.empty() || known) continue;
+      entries.push_back({line.label, {}, {}, line.colour, line.dashed, line.width, line.marker});
     }
   }
   return entries;
@@ -180,15 +182,18 @@ std::vector<Line> legend_of(const std::vector<Panel>& panels) {
 
 void draw_legend(Canvas& canvas, Point centre, const std::vector<Line>& entries) {
   constexpr double kSample = 26;
+  constexpr double kMarkerSample = 9;
   constexpr double kGap = 22;
   double width = -kGap;
-  for (const Line& entry : entries) width += kSample + 6 + canvas.text_width(entry.label, kLabel) + kGap;
+  const auto sample = [](const Line& entry) { return entry.width > 0 ? kSample : kMarkerSample; };
+  for (const Line& entry : entries) width += sample(entry) + 6 + canvas.text_width(entry.label, kLabel) + kGap;
   double x = centre.x - width / 2;
   for (const Line& entry : entries) {
     const double y = centre.y - 0.35 * kLabel.size;
-    canvas.line({{x, y}, {x + kSample, y}}, entry.colour, entry.width, entry.dashed);
-    canvas.text({x + kSample + 6, centre.y}, entry.label, kLabel);
-    x += kSample + 6 + canvas.text_width(entry.label, kLabel) + kGap;
+    if (entry.width > 0) canvas.line({{x, y}, {x + kSample, y}}, entry.colour, entry.width, entry.dashed);
+    canvas.marker({x + sample(entry) / 2, y}, entry.marker, entry.colour);
+    canvas.text({x + sample(entry) + 6, centre.y}, entry.label, kLabel);
+    x += sample(entry) + 6 + canvas.text_width(entry.label, kLabel) + kGap;
   }
 }
 

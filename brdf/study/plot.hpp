@@ -11,6 +11,7 @@
 
 #include "brdf/render/image.hpp"
 #include "brdf/study/axis.hpp"
+#include "brdf/study/marker.hpp"
 
 namespace sklar::brdf {
 
@@ -19,7 +20,8 @@ struct Line {
   std::vector<double> x = {}, y = {};
   Colour colour{0, 0, 0};
   bool dashed = false;
-  double width = 1.6;
+  double width = 1.6;  ///< 0: markers alone
+  Marker marker = Marker::none;
 };
 
 /// Joined points; a point that an axis cannot show breaks its line.

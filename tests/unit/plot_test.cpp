@@ -27,12 +27,16 @@ TEST(PlotAxis, TicksAreRoundNumbers) {
   EXPECT_EQ(texts({.low = -3, .high = 7}), (Texts{"-2", "0", "2", "4", "6"}));
   EXPECT_EQ(texts({.low = 0, .high = 90, .ticks = {0, 45, 90, 100}}), (Texts{"0", "45", "90"}));
   EXPECT_EQ(texts({.scale = Scale::logarithmic, .low = 0.02, .high = 10}), (Texts{"10^{-1}", "10^{0}", "10^{1}"}));
+  EXPECT_EQ(texts({.scale = Scale::digits, .low = 1e-16, .high = 1e-4}),
+            (Texts{"10^{-5}", "10^{-7}", "10^{-10}", "10^{-15}"}));
 }
 
 TEST(PlotAxis, PositionsFollowTheScale) {
   EXPECT_DOUBLE_EQ(axis_position({.low = 2, .high = 4}, 3), 0.5);
   EXPECT_DOUBLE_EQ(axis_position({.scale = Scale::logarithmic, .low = 0.01, .high = 100}, 1), 0.5);
   EXPECT_DOUBLE_EQ(axis_position({.scale = Scale::square_root, .low = 0, .high = 4}, 1), 0.5);
+  EXPECT_DOUBLE_EQ(axis_position({.scale = Scale::digits, .low = 1e-16, .high = 1e-1}, 1e-4), 0.5);
+  EXPECT_TRUE(std::isnan(axis_position({.scale = Scale::digits, .low = 1e-16, .high = 1e-1}, 1)));
   EXPECT_TRUE(std::isnan(axis_position({.scale = Scale::logarithmic, .low = 0.01, .high = 100}, 0)));
 }
 
@@ -100,6 +104,22 @@ TEST_F(PlotFile, PageIsAPictureWithItsLine) {
   EXPECT_GT(colours.white, bytes.width * bytes.height / 3) << "background";
   EXPECT_GT(colours.red, 500) << "the line crosses the panel";
   EXPECT_GT(colours.other, bytes.width * bytes.height / 20) << "the map, axes and text";
+}
+
+TEST_F(PlotFile, MarkersStandAtThePointsAndInTheLegend) {
+  const auto reds = [&](Marker marker, double y) {
+    Page page = diagonal_page();
+    auto& plot = std::get<LinePlot>(page.panels[0]);
+    plot.lines = {{.label = "a", .x = {0.5}, .y = {y}, .colour = {1, 0, 0}, .width = 0, .marker = marker}};
+    write_page(folder_ / "page.png", page);
+    return count(read_png(folder_ / "page.png")).red;
+  };
+  EXPECT_EQ(reds(Marker::none, 0.5), 0);
+  for (const Marker marker : {Marker::circle, Marker::square, Marker::triangle, Marker::diamond}) {
+    const int of_the_legend = reds(marker, 2);  // the point is outside the axis
+    EXPECT_GT(of_the_legend, 100);
+    EXPECT_NEAR(reds(marker, 0.5), 2 * of_the_legend, 20);
+  }
 }
 
 TEST_F(PlotFile, PageAsSvg) {

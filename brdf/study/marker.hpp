@@ -1,0 +1,8 @@
+#pragma once
+/// The shapes of the points of a plot.
+
+namespace sklar::brdf {
+
+enum class Marker { none, circle, square, triangle, diamond };
+
+}  // namespace sklar::brdf
