@@ -5,6 +5,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/error.hpp"
+#include "copula/rotated.hpp"
 #include "copula/symbolic/evaluate.hpp"
 #include "copula/symbolic/formula_dependence.hpp"
 #include "copula/symbolic/generator_check.hpp"
@@ -173,6 +174,28 @@ FamilyInfo make_family(const FamilyDefinition& definition) {
   }
   require_examples(info);
   add_tau(info, family);
+  return info;
+}
+
+FamilyInfo formula_of(const FamilyInfo& family) {
+  FamilyDefinition definition{.name = "formula",
+                              .title = family.title,
+                              .psi = family.psi,
+                              .psi_inverse = {},
+                              .source = family.source,
+                              .parameters = {},
+                              .examples = family.examples};
+  for (const ParameterInfo& parameter : family.parameters) {
+    definition.parameters.push_back({.name = parameter.name, .lowest = "-inf", .highest = "inf"});
+  }
+  const auto formula = std::make_shared<const FormulaFamily>(definition);
+  FamilyInfo info = family;
+  info.dimensions.highest = std::min(info.dimensions.highest, kMaxDimension);
+  info.make_unchecked = [formula, rotation = family.rotation](int dim, const Theta& theta) -> CopulaPtr {
+    CopulaPtr copula = formula->make(dim, theta);
+    if (rotation.none()) return copula;
+    return std::make_shared<Rotated>(std::move(copula), rotation.in(dim));
+  };
   return info;
 }
 

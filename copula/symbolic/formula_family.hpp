@@ -14,4 +14,9 @@ namespace sklar::symbolic {
 /// that cannot be one, examples outside the bounds.
 [[nodiscard]] FamilyInfo make_family(const FamilyDefinition& definition);
 
+/// The same family, its copulas made from the text of psi alone, as those of make_family are: no closed form of a
+/// density, a conditional or its inverse. For comparisons. Dimensions up to kMaxDimension.
+/// @throws std::invalid_argument for a family without psi.
+[[nodiscard]] FamilyInfo formula_of(const FamilyInfo& family);
+
 }  // namespace sklar::symbolic

@@ -19,7 +19,7 @@ allowed() {
   case $1 in
     copula) echo "$core" ;;
     copula/symbolic | copula/simd) echo "$core|$1/.*" ;;
-    copula/inference) echo "$core|copula/symbolic/.*|$1/.*" ;;
+    copula/inference | copula/study) echo "$core|copula/symbolic/.*|$1/.*" ;;
     families) echo 'copula/.*|families/.*' ;;
     brdf) echo "$root" ;;
     brdf/geometry) echo "$root|$1/.*" ;;
