@@ -34,5 +34,6 @@ void add_copula_derive(CLI::App& parent, Common& common);
 void add_copula_fit(CLI::App& parent, Common& common);
 void add_copula_sample(CLI::App& parent, Common& common);
 void add_copula_table(CLI::App& parent, Common& common);
+void add_tradeoff(CLI::App& parent, Common& common);
 
 }  // namespace sklar::cli

@@ -11,8 +11,6 @@
 namespace sklar::cli {
 namespace {
 
-using Cells = std::vector<std::string>;
-
 /// Whether any example admissible in the dimension has tail dependence.
 TailDependence strongest_tails(const FamilyInfo& family, int dim) {
   TailDependence strongest{0, 0};
@@ -73,20 +71,6 @@ nlohmann::ordered_json json_row(const FamilyInfo& family, int dim) {
       {"name", family.name},      {"title", family.title},        {"psi", family.psi},
       {"parameters", parameters}, {"tau", tau_text(family, dim)}, {"tails", tails_text(strongest_tails(family, dim))},
       {"source", family.source}};
-}
-
-/// Columns padded to the same width, two blanks between them.
-std::string aligned(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> width(rows.front().size(), 0);
-  for (const Cells& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string out;
-  for (const Cells& row : rows) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) out += row[i] + std::string(width[i] + 2 - row[i].size(), ' ');
-    out += row.back() + '\n';
-  }
-  return out;
 }
 
 struct Options {

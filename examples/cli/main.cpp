@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   add_brdf_eval(*brdf, common);
   add_brdf_fit(*brdf, common);
   add_brdf_render(*brdf, common);
+  add_tradeoff(app, common);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   protect_formula(arguments);

@@ -97,6 +97,19 @@ std::vector<const FamilyInfo*> parse_families(std::string_view names) {
   return chosen;
 }
 
+std::string aligned(const std::vector<Cells>& rows) {
+  std::vector<std::size_t> width(rows.front().size(), 0);
+  for (const Cells& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  }
+  std::string out;
+  for (const Cells& row : rows) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) out += row[i] + std::string(width[i] + 2 - row[i].size(), ' ');
+    out += row.back() + '\n';
+  }
+  return out;
+}
+
 void write_output(const std::string& path, std::string_view text) {
   if (!path.empty()) return write_file(path, text);
   std::cout << text << std::flush;

@@ -48,6 +48,10 @@ inline constexpr const char* kFamiliesHelp =
 /// families::resolve.
 [[nodiscard]] std::vector<const FamilyInfo*> parse_families(std::string_view names);
 
+/// Rows of a table to read, all with as many cells: columns padded to one width, two blanks between them.
+using Cells = std::vector<std::string>;
+[[nodiscard]] std::string aligned(const std::vector<Cells>& rows);
+
 /// To standard output, or, where path is not empty, to a file, whole or not at all. @throws FileError
 void write_output(const std::string& path, std::string_view text);
 
