@@ -1,71 +1,98 @@
-/// Nanoseconds a row over the list of families, each quantity by the closed forms and from the formula of psi alone;
-/// baselines in the same run. Names: log_pdf/frank/d=2/n=4096, formula/log_pdf/frank/d=2/n=1024. Run by tests/bench.sh.
+/// Nanoseconds a row over the list of families on one thread: the library, the same from the formula of psi alone, and
+/// the baselines, one scalar exp and log of the C library and scalar textbook formulas. Names:
+/// log_pdf/frank/d=2/n=65536, with formula/ or textbook/ before them; fit/frank/d=2/n=100000; derive/frank/order=10.
+/// Run by tests/bench.sh.
 
 #include <benchmark/benchmark.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <tuple>
 
+#include "copula/inference/fit.hpp"
+#include "copula/study/tradeoff.hpp"
 #include "copula/symbolic/derivative.hpp"
 #include "copula/symbolic/formula_family.hpp"
 #include "copula/symbolic/parser.hpp"
 #include "copula/symbolic/tape.hpp"
 #include "families/registry.hpp"
+#include "tests/bench/textbook.hpp"
 
 namespace {
 
 using namespace sklar;
 
-constexpr double kTau = 0.5;
-constexpr Index kRows = 4096;
+constexpr Index kRows = 65536;
+constexpr Index kRowsOfManyDimensions = 1024;
+constexpr Index kGrowthRows = 4096;
 constexpr Index kFormulaRows = 1024;
+constexpr Index kFitRows = 100'000;
 
-/// The parameter with tau = 1/2, or with the largest tau below it that the examples have.
-Theta parameter(const FamilyInfo& family, int dim) {
-  if (family.theta_from_tau && family.tau_range(dim).contains(kTau)) return family.from_tau(dim, kTau);
-  Theta best = family.examples.front();
-  for (const Theta& theta : family.examples) {
-    const double tau = family.tau(theta);
-    if (tau < kTau && tau > family.tau(best)) best = theta;
-  }
-  return best;
+std::string suffix(const FamilyInfo& family, int dim, Index rows) {
+  return "/" + family.name + "/d=" + std::to_string(dim) + "/n=" + std::to_string(rows);
 }
 
-/// The same generator as a user would give it: as text, without closed forms.
-FamilyInfo as_formula(const FamilyInfo& family) {
-  symbolic::FamilyDefinition definition;
-  definition.name = family.name + "_formula";
-  definition.title = family.title;
-  definition.psi = family.psi;
-  definition.source = family.source;
-  for (const ParameterInfo& parameter : family.parameters) {
-    definition.parameters.push_back({.name = parameter.name, .lowest = "-inf", .highest = "inf"});
+/// Points of a family at medium_theta. The last ones are kept: a benchmark asks for its own several times.
+const Points& points(const FamilyInfo& family, int dim, Index rows) {
+  static std::tuple<std::string, int, Index> kept;
+  static Points u;
+  const std::tuple wanted(family.name, dim, rows);
+  if (kept != wanted) {
+    Rng rng(2);
+    u = family.make(dim, medium_theta(family, dim))->sample_by(Route::radial, rows, rng);
+    kept = wanted;
   }
-  definition.examples = family.examples;
-  return symbolic::make_family(definition);
+  return u;
 }
 
 using Evaluate = Column (Copula::*)(const PointsRef&) const;
 
-struct Quantity {
+struct Evaluation {
   const char* name;
   Evaluate evaluate;
 };
 
-constexpr Quantity kQuantities[] = {{"log_pdf", &Copula::log_pdf}, {"h", &Copula::h}, {"h_inv", &Copula::h_inv}};
+constexpr Evaluation kEvaluations[] = {{"log_pdf", &Copula::log_pdf}, {"h", &Copula::h}, {"h_inv", &Copula::h_inv}};
 
-void measure(benchmark::State& state, const CopulaPtr& copula, Evaluate evaluate, const Points& u) {
-  for (auto _ : state) benchmark::DoNotOptimize(((*copula).*evaluate)(u).data());
-  state.SetItemsProcessed(state.iterations() * u.rows());
-}
+/// The library's quantities of one copula.
+struct Subject {
+  const FamilyInfo& family;  ///< of the points
+  CopulaPtr copula;
+  int dim;
+  Index rows;
 
-void measure_sample(benchmark::State& state, const CopulaPtr& copula, Index rows) {
-  Rng rng(1);
-  for (auto _ : state) benchmark::DoNotOptimize(copula->sample(rows, rng).data());
-  state.SetItemsProcessed(state.iterations() * rows);
+  void add(const std::string& prefix, const Evaluation& evaluation) const {
+    const auto measure = [*this, evaluate = evaluation.evaluate](benchmark::State& state) {
+      const Points& u = points(family, dim, rows);
+      for (auto _ : state) benchmark::DoNotOptimize(((*copula).*evaluate)(u).data());
+      state.SetItemsProcessed(state.iterations() * rows);
+    };
+    benchmark::RegisterBenchmark((prefix + evaluation.name + suffix(family, dim, rows)).c_str(), measure);
+  }
+
+  void add_sample(const std::string& prefix) const {
+    const auto measure = [*this](benchmark::State& state) {
+      Rng rng(1);
+      for (auto _ : state) benchmark::DoNotOptimize(copula->sample(rows, rng).data());
+      state.SetItemsProcessed(state.iterations() * rows);
+    };
+    benchmark::RegisterBenchmark((prefix + "sample" + suffix(family, dim, rows)).c_str(), measure);
+  }
+
+  void add_all(const std::string& prefix) const {
+    for (const Evaluation& evaluation : kEvaluations) add(prefix, evaluation);
+    add_sample(prefix);
+  }
+};
+
+Subject subject(const FamilyInfo& family, int dim, Index rows) {
+  return {family, family.make(dim, medium_theta(family, dim)), dim, rows};
 }
 
 /// One scalar exp and one log of the C library a row: the unit in which times can be quoted on any machine.
-void baseline(benchmark::State& state) {
+void exp_log(benchmark::State& state) {
   Rng rng(1);
   const Points x = uniforms(rng, kRows, 1);
   Column out(kRows);
@@ -76,16 +103,65 @@ void baseline(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * kRows);
 }
 
-void add(const std::string& prefix, const FamilyInfo& family, const FamilyInfo& points_of, int dim, Index rows) {
-  const Theta theta = parameter(points_of, dim);
-  const CopulaPtr copula = family.make(dim, theta);
-  Rng rng(2);
-  const Points u = points_of.make(dim, theta)->sample(rows, rng);
-  const std::string suffix = "/" + points_of.name + "/d=" + std::to_string(dim) + "/n=" + std::to_string(rows);
-  for (const auto& [name, evaluate] : kQuantities) {
-    benchmark::RegisterBenchmark((prefix + name + suffix).c_str(), measure, copula, evaluate, u);
-  }
-  benchmark::RegisterBenchmark((prefix + "sample" + suffix).c_str(), measure_sample, copula, rows);
+/// A baseline that computes something else would be no baseline. @throws std::logic_error
+void require_agreement(const std::string& name, const Column& values, const Column& expected) {
+  constexpr double kMost = 1e-8;
+  const double worst = ((values - expected).abs() / expected.abs().max(1)).maxCoeff();
+  if (!(worst <= kMost)) throw std::logic_error(name + ": the baseline is off by " + std::to_string(worst));
+}
+
+using Scalar = std::function<double(double u, double v)>;
+
+void add_textbook(const FamilyInfo& family, const char* quantity, const Scalar& value, Evaluate expected) {
+  const auto fill = [value](const Points& u, Column& out) {
+    for (Index i = 0; i < u.rows(); ++i) out(i) = value(u(i, 0), u(i, 1));
+  };
+  const std::string name = std::string("textbook/") + quantity + suffix(family, 2, kRows);
+  const Points& sample = points(family, 2, kRows);
+  Column values(kRows);
+  fill(sample, values);
+  require_agreement(name, values, ((*subject(family, 2, kRows).copula).*expected)(sample));
+  const auto measure = [fill, &family](benchmark::State& state) {
+    const Points& u = points(family, 2, kRows);
+    Column out(kRows);
+    for (auto _ : state) {
+      fill(u, out);
+      benchmark::DoNotOptimize(out.data());
+    }
+  };
+  benchmark::RegisterBenchmark(name.c_str(), measure);
+}
+
+/// The quantities that everyone computes, by the formulas that everyone uses. A call through std::function a row is
+/// small beside them.
+template <class Textbook>
+void add_textbook(const char* name) {
+  const FamilyInfo& family = families::find(name);
+  const Textbook copula{medium_theta(family, 2).front()};
+  const Scalar log_pdf = [copula](double u, double v) { return copula.log_pdf(u, v); };
+  const Scalar h_inv = [copula](double u, double p) { return copula.h_inv(u, p); };
+  add_textbook(family, "log_pdf", log_pdf, &Copula::log_pdf);
+  add_textbook(family, "h_inv", h_inv, &Copula::h_inv);
+  const auto measure = [h_inv](benchmark::State& state) {
+    Rng rng(1);
+    Points out(kRows, 2);
+    for (auto _ : state) {
+      for (Index i = 0; i < kRows; ++i) {
+        out(i, 0) = uniform(rng);
+        out(i, 1) = h_inv(out(i, 0), uniform(rng));
+      }
+      benchmark::DoNotOptimize(out.data());
+    }
+  };
+  benchmark::RegisterBenchmark(("textbook/sample" + suffix(family, 2, kRows)).c_str(), measure);
+}
+
+void add_fit(const FamilyInfo& family) {
+  const auto measure = [&family](benchmark::State& state) {
+    const Points& u = points(family, 2, kFitRows);
+    for (auto _ : state) benchmark::DoNotOptimize(fit_maximum_likelihood(family, u).theta.data());
+  };
+  benchmark::RegisterBenchmark(("fit" + suffix(family, 2, kFitRows)).c_str(), measure);
 }
 
 /// All derivatives of psi up to an order from its text, and the tape of the last.
@@ -110,17 +186,36 @@ void add_derivatives(const FamilyInfo& family) {
   }
 }
 
+/// The log density in more and more dimensions, and rows.
+void add_growth(const FamilyInfo& family) {
+  for (const int dim : {2, 5, 10, 20, 50, 100}) subject(family, dim, kGrowthRows).add("", kEvaluations[0]);
+  for (const Index rows : {1000, 10'000, 100'000, 1'000'000}) subject(family, 2, rows).add("", kEvaluations[0]);
+}
+
+void add_family(const FamilyInfo& family) {
+  add_derivatives(family);
+  for (const int dim : {2, 3}) subject(family, dim, kRows).add_all("");
+  for (const int dim : {10, 100}) subject(family, dim, kRowsOfManyDimensions).add_all("");
+  if (family.parameters.empty()) return;
+  add_growth(family);
+  add_fit(family);
+  const FamilyInfo formula = symbolic::formula_of(family);
+  for (const int dim : {2, 3, 10}) {
+    Subject{family, formula.make(dim, medium_theta(family, dim)), dim, kFormulaRows}.add_all("formula/");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  benchmark::RegisterBenchmark("baseline/exp_log", baseline);
-  for (const FamilyInfo& family : families::all()) {
-    add_derivatives(family);
-    for (const int dim : {2, 3, 10, 100}) add("", family, family, dim, kRows);
-    if (family.parameters.empty()) continue;
-    const FamilyInfo formula = as_formula(family);
-    for (const int dim : {2, 3, 10}) add("formula/", formula, family, dim, kFormulaRows);
-  }
+  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  benchmark::RegisterBenchmark("baseline/exp_log", exp_log);
+  add_textbook<textbook::Frank>("frank");
+  add_textbook<textbook::Clayton>("clayton");
+  add_textbook<textbook::Gumbel>("gumbel");
+  add_textbook<textbook::Joe>("joe");
+  add_textbook<textbook::Amh>("amh");
+  for (const FamilyInfo& family : families::all()) add_family(family);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -21,7 +21,7 @@ const std::string kHeader = "family,theta,quantity,d,u\n";
 const std::string kHeaderExpected = "family,theta,quantity,d,u,expected\n";
 
 TEST_F(Command, EverySubcommandHasHelpAndTheCommonOptions) {
-  for (const std::string command : {"families", "copula table", "copula sample", "copula fit"}) {
+  for (const std::string command : {"families", "copula table", "copula sample", "copula fit", "tradeoff"}) {
     const Result result = run(command + " --help");
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_EQ(result.err, "") << command;
