@@ -1,39 +1,39 @@
 #include "copula/study/timing.hpp"
 
 #include <oneapi/tbb/task_arena.h>
+#include <time.h>
 
-#include <algorithm>
 #include <chrono>
-#include <vector>
 
 namespace sklar {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+/// Of the calling thread.
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-constexpr double kBudget = 0.1;
 
 }  // namespace
 
-double median_seconds(const std::function<void()>& work) {
-  std::vector<double> times;
+double seconds_per_call(const std::function<void()>& work) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kBudget{100};
+  double seconds = 0;
   oneapi::tbb::task_arena one_thread(1);
   one_thread.execute([&] {
     work();
-    const auto start = Clock::now();
+    const auto end = Clock::now() + kBudget;
+    const double begin = processor_seconds();
+    int calls = 0;
     do {
-      const auto begin = Clock::now();
       work();
-      times.push_back(seconds_since(begin));
-    } while (seconds_since(start) < kBudget);
+      ++calls;
+    } while (Clock::now() < end);
+    seconds = (processor_seconds() - begin) / calls;
   });
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return seconds;
 }
 
 }  // namespace sklar

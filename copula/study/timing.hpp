@@ -5,8 +5,8 @@
 
 namespace sklar {
 
-/// Seconds of wall clock of one call on one thread: the median of the calls that fit into a tenth of a second, at
-/// least one, after one that warms the caches.
-[[nodiscard]] double median_seconds(const std::function<void()>& work);
+/// Processor time of one call on one thread, in seconds: the mean of the calls that fit into a tenth of a second, at
+/// least one, after one that warms the caches. Other programs on the machine hardly change it.
+[[nodiscard]] double seconds_per_call(const std::function<void()>& work);
 
 }  // namespace sklar

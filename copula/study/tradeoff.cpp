@@ -62,14 +62,14 @@ class Measurement {
 
   void add_doubles(const char* level, const Copula& copula) {
     Column values;
-    const double seconds = median_seconds([&] { values = (copula.*evaluation_.evaluate)(subject_.u); });
+    const double seconds = seconds_per_call([&] { values = (copula.*evaluation_.evaluate)(subject_.u); });
     add(level, seconds, to_big(values));
   }
 
   void add_exact(int digits) {
     std::vector<BigFloat> values;
     const double seconds =
-        median_seconds([&] { values = subject_.copula->exact(evaluation_.quantity, subject_.u, digits); });
+        seconds_per_call([&] { values = subject_.copula->exact(evaluation_.quantity, subject_.u, digits); });
     add("exact", seconds, values);
   }
 

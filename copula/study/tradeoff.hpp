@@ -17,7 +17,7 @@ struct TradeoffRow {
   Theta theta;
   std::string quantity;  ///< "log_pdf", "h", "h_inv"
   std::string level;  ///< "standard", "symbolic": the same from the text of psi alone, "exact": as many digits as asked
-  double ns;          ///< a row, in a batch of all rows on one thread; see median_seconds
+  double ns;          ///< a row, in a batch of all rows on one thread; see seconds_per_call
   ValueErrors errors;  ///< against twice the digits of the level "exact"; of log_pdf as a logarithm
 };
 

@@ -47,10 +47,10 @@ TEST(ValueErrors, InfinitiesAndNanCount) {
 
 TEST(Timing, IsThatOfOneCall) {
   int calls = 0;
-  const double seconds = median_seconds([&] { ++calls; });
+  const double seconds = seconds_per_call([&] { ++calls; });
   EXPECT_GT(calls, 100);
-  EXPECT_GE(seconds, 0);
-  EXPECT_LT(seconds, 0.1 / 100);  // the share of one of the many in a tenth of a second
+  EXPECT_GT(seconds, 0);
+  EXPECT_LE(seconds * calls, 0.11);  // of the tenth of a second for all of them
 }
 
 TEST(MediumTheta, HasAMediumTau) {
