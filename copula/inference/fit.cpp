@@ -132,19 +132,19 @@ FitResult fit_maximum_likelihood(const FamilyInfo& family, const PointsRef& u, c
   const auto objective = [&](const Copula& copula) {
     return likelihood_objective(copula, u, weights, fitter.chunking());
   };
-  std::optional<SampleScore> score;
-  if (options.standard_errors || !fitter.scale().by_tau()) score.emplace(family, u, weights, fitter.chunking());
+  const double total = total_weight(weights, u.rows());
   if (fitter.scale().by_tau()) {
     fitter.search(objective, start, step);
+    if (options.standard_errors) fitter.add_standard_error(objective, total);
   } else {
-    fitter.search(objective, start, fitter.scale().spacing(), score->symbolic() ? Score(std::cref(*score)) : Score());
+    const SampleScore score(family, u, weights, fitter.chunking());
+    fitter.search(objective, start, fitter.scale().spacing(), score.symbolic() ? Score(std::cref(score)) : Score());
+    if (options.standard_errors) fitter.add_standard_errors(std::cref(score));
   }
   FitResult& result = fitter.result();
   // 0 - x, so that a likelihood of 0 has no sign.
-  fitter.set_likelihood(result.nonfinite == 0 ? 0 - result.objective : -std::numeric_limits<double>::infinity(),
-                        total_weight(weights, u.rows()));
+  fitter.set_likelihood(result.nonfinite == 0 ? 0 - result.objective : -std::numeric_limits<double>::infinity(), total);
   result.objective = 0 - result.log_likelihood;
-  if (options.standard_errors) fitter.add_standard_errors(std::cref(*score));
   return result;
 }
 

@@ -45,6 +45,10 @@ class Fitter {
   void add_likelihood(const PointsRef& u, const ColumnRef& weights);
   void set_likelihood(double log_likelihood, double total_weight);
 
+  /// Records the standard error of a converged search for the maximum of the likelihood in one parameter, from second
+  /// differences of its negative logarithm. Precondition: scale().by_tau().
+  void add_standard_error(const CopulaObjective& objective, double total_weight);
+
   /// Records the standard errors of a converged search for the maximum of the likelihood.
   void add_standard_errors(const Score& score);
 
