@@ -32,8 +32,9 @@ class Archimedean final : public ArchimedeanCopula {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
-    const bool started = u.cols() == dim() &&
-                         start(u, reflection, [&](const Kernels& kernels) { kernels.log_pdf(Rows(u), out.data()); });
+    const bool started = u.cols() == dim() && start(u, reflection, [&](const Kernels& kernels) {
+                           kernels.log_pdf(Accuracy::standard, Rows(u), out.data());
+                         });
     for_each_row(u, reflection, out, started, [this](const Row& row) {
       if (row.u.size() == 1) return 0.0;
       return resolve([&]<class T>() { return log_density(RowOf<T>(row).all()); },
@@ -56,8 +57,9 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const override {
-    const bool started =
-        start(u, reflection, [&](const Kernels& kernels) { kernels.conditional(Rows(u), tail, out.data()); });
+    const bool started = start(u, reflection, [&](const Kernels& kernels) {
+      kernels.conditional(Accuracy::standard, Rows(u), tail, out.data());
+    });
     for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;
       return resolve(
@@ -68,8 +70,9 @@ class Archimedean final : public ArchimedeanCopula {
 
   void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
                                 ColumnOut out) const override {
-    const bool started =
-        start(u, reflection, [&](const Kernels& kernels) { kernels.conditional_inverse(Rows(u), tail, out.data()); });
+    const bool started = start(u, reflection, [&](const Kernels& kernels) {
+      kernels.conditional_inverse(Accuracy::standard, Rows(u), tail, out.data());
+    });
     for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;
       const auto kernel = [&]<class T>() {
@@ -80,6 +83,31 @@ class Archimedean final : public ArchimedeanCopula {
         return accept_probability(log_v, side, kInverseTolerance);
       });
     });
+  }
+
+  // In single precision; in double where that does not serve.
+  void fast_into(Quantity quantity, const PointsRef& u, ColumnOut out) const override {
+    const bool joint = quantity == Quantity::log_pdf;
+    if (kernels_ == nullptr || quantity == Quantity::log_cdf || u.cols() < (joint ? dim() : 2)) {
+      return standard_into(quantity, u, out);
+    }
+    const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
+    const Tail tail = upper ? Tail::upper : Tail::lower;
+    if (joint) {
+      kernels_->log_pdf(Accuracy::fast, Rows(u), out.data());
+    } else if (quantity == Quantity::h || quantity == Quantity::h_upper) {
+      kernels_->conditional(Accuracy::fast, Rows(u), tail, out.data());
+    } else {
+      kernels_->conditional_inverse(Accuracy::fast, Rows(u), tail, out.data());
+    }
+    std::vector<Index> left;
+    for (Index i = 0; i < out.size(); ++i) {
+      if (std::isnan(out(i))) left.push_back(i);
+    }
+    if (left.empty()) return;
+    Column answers(static_cast<Index>(left.size()));
+    standard_into(quantity, u(left, Eigen::all), answers);
+    out(left) = answers;
   }
 
   // h and its inverse where they are the last entry.

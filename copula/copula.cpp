@@ -47,13 +47,40 @@ void Copula::require_digits(int digits) {
                               std::to_string(digits));
 }
 
-Column Copula::log_pdf(const PointsRef& u) const {
+Column Copula::log_pdf(const PointsRef& u, Accuracy accuracy) const {
   require_points("log_pdf", u, dim_, dim_);
+  return evaluate(Quantity::log_pdf, u, accuracy);
+}
+
+Column Copula::evaluate(Quantity quantity, const PointsRef& u, Accuracy accuracy) const {
   Column out(u.rows());
   for_each_chunk(u.rows(), [&](Index first, Index count) {
-    log_pdf_into(u.middleRows(first, count), {}, out.segment(first, count));
+    const auto rows = u.middleRows(first, count);
+    accuracy == Accuracy::fast ? fast_into(quantity, rows, out.segment(first, count))
+                               : standard_into(quantity, rows, out.segment(first, count));
   });
   return out;
+}
+
+void Copula::standard_into(Quantity quantity, const PointsRef& u, ColumnOut out) const {
+  switch (quantity) {
+    case Quantity::log_pdf:
+      return log_pdf_into(u, {}, out);
+    case Quantity::log_cdf:
+      return log_cdf_into(u, {}, out);
+    case Quantity::h:
+      return conditional_into(u, {}, Tail::lower, out);
+    case Quantity::h_upper:
+      return conditional_into(u, {}, Tail::upper, out);
+    case Quantity::h_inv:
+      return conditional_inverse_into(u, {}, Tail::lower, out);
+    case Quantity::h_inv_upper:
+      return conditional_inverse_into(u, {}, Tail::upper, out);
+  }
+}
+
+void Copula::fast_into(Quantity quantity, const PointsRef& u, ColumnOut out) const {
+  standard_into(quantity, u, out);
 }
 
 double Copula::log_pdf_at(std::span<const double> u) const {
@@ -69,33 +96,21 @@ Column Copula::pdf(const PointsRef& u) const {
 
 Column Copula::log_cdf(const PointsRef& u) const {
   require_points("log_cdf", u, dim_, dim_);
-  Column out(u.rows());
-  for_each_chunk(u.rows(), [&](Index first, Index count) {
-    log_cdf_into(u.middleRows(first, count), {}, out.segment(first, count));
-  });
-  return out;
+  return evaluate(Quantity::log_cdf, u, Accuracy::standard);
 }
 
 Column Copula::cdf(const PointsRef& u) const {
   return exponential(log_cdf(u));
 }
 
-Column Copula::h(const PointsRef& u) const {
+Column Copula::h(const PointsRef& u, Accuracy accuracy) const {
   require_points("h", u, 1, dim_);
-  Column out(u.rows());
-  for_each_chunk(u.rows(), [&](Index first, Index count) {
-    conditional_into(u.middleRows(first, count), {}, Tail::lower, out.segment(first, count));
-  });
-  return out;
+  return evaluate(Quantity::h, u, accuracy);
 }
 
-Column Copula::h_upper(const PointsRef& u) const {
+Column Copula::h_upper(const PointsRef& u, Accuracy accuracy) const {
   require_points("h_upper", u, 1, dim_);
-  Column out(u.rows());
-  for_each_chunk(u.rows(), [&](Index first, Index count) {
-    conditional_into(u.middleRows(first, count), {}, Tail::upper, out.segment(first, count));
-  });
-  return out;
+  return evaluate(Quantity::h_upper, u, accuracy);
 }
 
 Column Copula::log_conditional_pdf(const PointsRef& u) const {
@@ -106,22 +121,14 @@ Column Copula::log_conditional_pdf(const PointsRef& u) const {
   return joint - given;
 }
 
-Column Copula::h_inv(const PointsRef& u) const {
+Column Copula::h_inv(const PointsRef& u, Accuracy accuracy) const {
   require_points("h_inv", u, 1, dim_);
-  Column out(u.rows());
-  for_each_chunk(u.rows(), [&](Index first, Index count) {
-    conditional_inverse_into(u.middleRows(first, count), {}, Tail::lower, out.segment(first, count));
-  });
-  return out;
+  return evaluate(Quantity::h_inv, u, accuracy);
 }
 
-Column Copula::h_inv_upper(const PointsRef& u) const {
+Column Copula::h_inv_upper(const PointsRef& u, Accuracy accuracy) const {
   require_points("h_inv_upper", u, 1, dim_);
-  Column out(u.rows());
-  for_each_chunk(u.rows(), [&](Index first, Index count) {
-    conditional_inverse_into(u.middleRows(first, count), {}, Tail::upper, out.segment(first, count));
-  });
-  return out;
+  return evaluate(Quantity::h_inv_upper, u, accuracy);
 }
 
 Points Copula::rosenblatt(const PointsRef& u) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "copula/accuracy.hpp"
 #include "copula/big_float.hpp"
 #include "copula/kernels.hpp"
 #include "copula/random.hpp"
@@ -28,6 +29,7 @@ enum class Route { conditional, frailty, radial };
 /// Points of the boundary are valid input. A coordinate 0 or 1 stands for the limit eps or 1 - eps, eps -> 0, the same
 /// eps in all coordinates: it matters in the corners, where densities and conditionals depend on the direction of
 /// approach (log_pdf may be -inf or inf there). A last coordinate or p of 0 or 1 gives 0 or 1 itself in h and h_inv.
+/// Where an Accuracy may be given, fast keeps kFastTolerance only.
 /// A row with NaN gives NaN; other rows are never affected. Large batches are computed on all threads of oneTBB's
 /// arena, with the same result for any number of them.
 class Copula {
@@ -38,7 +40,8 @@ class Copula {
 
   /// Natural log of the density. @param u n x d in [0,1]. @return n values, -inf where the density is 0.
   /// @throws std::invalid_argument (columns), std::domain_error (u outside [0,1]); so do all calls below.
-  [[nodiscard]] Column log_pdf(const PointsRef& u) const;
+  [[nodiscard]] Column log_pdf(const PointsRef& u) const { return log_pdf(u, Accuracy::standard); }
+  [[nodiscard]] Column log_pdf(const PointsRef& u, Accuracy accuracy) const;
   [[nodiscard]] Column pdf(const PointsRef& u) const;
 
   /// The same for one point, without heap allocation up to dimension 16. @param u d values in [0,1] or NaN; unchecked.
@@ -50,8 +53,10 @@ class Copula {
 
   /// Conditional cdf C(u_k | u_1..u_{k-1}) and its complement, each without cancellation.
   /// @param u n x k in [0,1], 1 <= k <= d. For k = 1 the answer is u_1 (1 - u_1).
-  [[nodiscard]] Column h(const PointsRef& u) const;
-  [[nodiscard]] Column h_upper(const PointsRef& u) const;
+  [[nodiscard]] Column h(const PointsRef& u) const { return h(u, Accuracy::standard); }
+  [[nodiscard]] Column h(const PointsRef& u, Accuracy accuracy) const;
+  [[nodiscard]] Column h_upper(const PointsRef& u) const { return h_upper(u, Accuracy::standard); }
+  [[nodiscard]] Column h_upper(const PointsRef& u, Accuracy accuracy) const;
 
   /// Natural log of the density of u_k given u_1..u_{k-1}, the slope of h in its last argument; 0 for k = 1.
   /// @param u n x k in [0,1], 1 <= k <= d. @return NaN where the density of the given coordinates is 0 or infinite.
@@ -59,8 +64,10 @@ class Copula {
 
   /// Inverse of h in its last argument: the v with h(u_1..u_{k-1}, v) = p, and 1 - v without cancellation.
   /// @param u n x k in [0,1]; the last column holds p.
-  [[nodiscard]] Column h_inv(const PointsRef& u) const;
-  [[nodiscard]] Column h_inv_upper(const PointsRef& u) const;
+  [[nodiscard]] Column h_inv(const PointsRef& u) const { return h_inv(u, Accuracy::standard); }
+  [[nodiscard]] Column h_inv(const PointsRef& u, Accuracy accuracy) const;
+  [[nodiscard]] Column h_inv_upper(const PointsRef& u) const { return h_inv_upper(u, Accuracy::standard); }
+  [[nodiscard]] Column h_inv_upper(const PointsRef& u, Accuracy accuracy) const;
 
   /// Rosenblatt transform: column k becomes h(u_1..u_k). @param u n x d.
   [[nodiscard]] Points rosenblatt(const PointsRef& u) const;
@@ -91,6 +98,9 @@ class Copula {
   /// @throws std::invalid_argument unless dim >= 2.
   explicit Copula(int dim);
 
+  /// The quantity with the accuracy of the public calls. Precondition: u as these take it.
+  void standard_into(Quantity quantity, const PointsRef& u, ColumnOut out) const;
+
   /// @throws std::invalid_argument for a number of digits that exact does not give.
   static void require_digits(int digits);
 
@@ -111,6 +121,11 @@ class Copula {
 
   /// One point of this copula rotated. Precondition: not the conditional route; has_frailty() for that of the frailty.
   virtual void draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const = 0;
+
+  // The same within kFastTolerance, or more exactly.
+  virtual void fast_into(Quantity quantity, const PointsRef& u, ColumnOut out) const;
+
+  [[nodiscard]] Column evaluate(Quantity quantity, const PointsRef& u, Accuracy accuracy) const;
 
   // Makes uniforms, all but the leftmost fixed columns, points of the copula.
   void invert(Points& u, Index fixed) const;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "copula/accuracy.hpp"
 #include "copula/types.hpp"
 
 namespace sklar {
@@ -20,25 +21,28 @@ struct Rows {
 
 enum class Tail { lower, upper };  ///< a probability or its complement
 
-/// Each function fills rows.count values, with NaN for the rows that it leaves to the exact route: those on the
-/// boundary, of an unusual size, or whose error estimate is above the tolerance. What it answers meets the bounds of
-/// Archimedean.
+/// Each function fills rows.count values, with NaN for the rows that it leaves: those on the boundary, of an unusual
+/// size, or whose error estimate is above the tolerance of that accuracy. What it answers meets it.
 class Kernels {
  public:
   virtual ~Kernels() = default;
-  virtual void log_pdf(const Rows& rows, double* out) const = 0;  ///< rows.columns is the dimension of the copula
-  virtual void conditional(const Rows& rows, Tail tail, double* out) const = 0;
-  virtual void conditional_inverse(const Rows& rows, Tail tail, double* out) const = 0;
+  /// @param rows of as many columns as the copula has.
+  virtual void log_pdf(Accuracy accuracy, const Rows& rows, double* out) const = 0;
+  virtual void conditional(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
+  virtual void conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
 };
 
-/// What one instruction set offers for a family; null where nothing.
+template <class Constants>
+struct KernelFunctions {
+  void (*log_pdf)(const Constants&, const Rows&, double*);
+  void (*conditional)(const Constants&, const Rows&, Tail, double*);
+  void (*conditional_inverse)(const Constants&, const Rows&, Tail, double*);
+};
+
+/// What one instruction set offers for a family.
 template <class Constants>
 struct KernelTable {
-  using Function = void (*)(const Constants&, const Rows&, double*);
-  using OfTail = void (*)(const Constants&, const Rows&, Tail, double*);
-
-  Function log_pdf;
-  OfTail conditional, conditional_inverse;
+  KernelFunctions<Constants> standard, fast;
 };
 
 /// The kernels of one copula. @param table of static storage.
@@ -49,15 +53,21 @@ template <class Constants>
     Implementation(Constants constants, const KernelTable<Constants>& table)
         : constants_(std::move(constants)), table_(table) {}
 
-    void log_pdf(const Rows& rows, double* out) const override { table_.log_pdf(constants_, rows, out); }
-    void conditional(const Rows& rows, Tail tail, double* out) const override {
-      table_.conditional(constants_, rows, tail, out);
+    void log_pdf(Accuracy accuracy, const Rows& rows, double* out) const override {
+      functions(accuracy).log_pdf(constants_, rows, out);
     }
-    void conditional_inverse(const Rows& rows, Tail tail, double* out) const override {
-      table_.conditional_inverse(constants_, rows, tail, out);
+    void conditional(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const override {
+      functions(accuracy).conditional(constants_, rows, tail, out);
+    }
+    void conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const override {
+      functions(accuracy).conditional_inverse(constants_, rows, tail, out);
     }
 
    private:
+    [[nodiscard]] const KernelFunctions<Constants>& functions(Accuracy accuracy) const {
+      return accuracy == Accuracy::fast ? table_.fast : table_.standard;
+    }
+
     Constants constants_;
     const KernelTable<Constants>& table_;
   };

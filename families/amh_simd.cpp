@@ -46,10 +46,10 @@ using namespace sklar::simd::HWY_NAMESPACE::formulas;
 /// u, 1 - u and D(u).
 template <class D>
 struct Coordinate {
-  HWY_INLINE Coordinate(D d, const KernelConstants& c, Vec<D> u)
-      : value(u),
-        upper(hn::Sub(hn::Set(d, 1.0), u)),
-        scaling(c.theta > 0 ? hn::MulAdd(hn::Set(d, c.theta), u, hn::Set(d, c.rest))
+  HWY_INLINE Coordinate(D d, const KernelConstants& c, const Columns<D>& rows, Index k)
+      : value(rows[k]),
+        upper(rows.upper(k)),
+        scaling(c.theta > 0 ? hn::MulAdd(hn::Set(d, c.theta), value, hn::Set(d, c.rest))
                             : hn::MulAdd(hn::Set(d, c.size), upper, hn::Set(d, 1.0))) {}
 
   Vec<D> value, upper, scaling;
@@ -66,7 +66,7 @@ HWY_INLINE Vec<D> denominator(D d, const KernelConstants& c, const Coordinate<D>
 
 template <class D>
 HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& rows) {
-  const Coordinate<D> u(d, c, rows[0]), v(d, c, rows[1]);
+  const Coordinate<D> u(d, c, rows, 0), v(d, c, rows, 1);
   Vec<D> numerator;
   if (c.theta > 0) {
     numerator = hn::MulAdd(u.scaling, v.scaling, hn::Mul(hn::Mul(hn::Set(d, c.theta), u.value), v.value));
@@ -78,8 +78,8 @@ HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> g = denominator(d, c, u, v);
   const Vec<D> value = log(d, hn::Div(numerator, hn::Mul(hn::Mul(g, g), g)));
   const Vec<D> error = hn::MulAdd(hn::Set(d, 2.0), hn::Abs(value), hn::Set(d, 20.0));
-  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)},
-                    hn::And(is_inside(d, u.value), is_inside(d, v.value)));
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)},
+                    hn::And(rows.inside(0), rows.inside(1)));
 }
 
 /// log c = (d+1) log(1-theta) - 2 log prod D(u_i) - log w + log R_(d+1)(x/w), x = theta prod u_i / D(u_i).
@@ -88,10 +88,10 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const auto n = static_cast<double>(rows.size());
   Product<D> product(d);
   Vec<D> scalings = hn::Set(d, 1.0);
-  auto inside = is_inside(d, rows[0]);
+  auto inside = rows.inside(0);
   for (Index k = 0; k < rows.size(); ++k) {
-    const Coordinate<D> u(d, c, rows[k]);
-    inside = hn::And(inside, is_inside(d, u.value));
+    const Coordinate<D> u(d, c, rows, k);
+    inside = hn::And(inside, rows.inside(k));
     const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), u.scaling);
     product.multiply(d, hn::Mul(u.value, inverse), hn::Mul(hn::Mul(hn::Set(d, c.rest), u.upper), inverse));
     scalings = hn::Mul(scalings, u.scaling);
@@ -103,7 +103,7 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> value = hn::Add(hn::NegMulAdd(hn::Set(d, 2.0), log_scalings, hn::Set(d, constant)), term.value);
   const Vec<D> error =
       hn::Add(hn::MulAdd(hn::Set(d, -4.0), log_scalings, hn::Set(d, 3 * n - 2 * constant)), term.error);
-  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 
 template <class D>
@@ -114,7 +114,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
 
 template <class D>
 HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Coordinate<D> u(d, c, rows[0]), v(d, c, rows[1]);
+  const Coordinate<D> u(d, c, rows, 0), v(d, c, rows, 1);
   const Vec<D> inverse_g = hn::Div(hn::Set(d, 1.0), denominator(d, c, u, v)), square = hn::Mul(inverse_g, inverse_g);
   Vec<D> value;
   if (tail == Tail::lower) {
@@ -129,8 +129,8 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
     const Vec<D> inner = hn::MulAdd(v.upper, last, hn::Add(u.upper, u.upper));
     value = hn::Mul(hn::Mul(v.upper, hn::MulAdd(size, inner, hn::Set(d, 1 - c.size))), square);
   }
-  return probability_within(d, value, hn::Set(d, 20 * kEpsilon), kHTolerance,
-                            hn::And(is_inside(d, u.value), is_inside(d, v.value)));
+  return probability_within(d, value, hn::Set(d, 20 * Precision<D>::kUnit), kHTolerance,
+                            hn::And(rows.inside(0), rows.inside(1)));
 }
 
 /// The root z of y z (1 + y z) = p y (1 + y), y = x/w, of x = theta u / D(u), w = (1-theta) / D(u), and from it
@@ -138,8 +138,8 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
 template <class D>
 HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Vec<D> one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), four = hn::Set(d, 4.0), rest = hn::Set(d, c.rest);
-  const Coordinate<D> u(d, c, rows[0]);
-  const Vec<D> p = rows[1], upper_p = hn::Sub(one, p), inverse = hn::Div(one, u.scaling);
+  const Coordinate<D> u(d, c, rows, 0);
+  const Vec<D> p = rows[1], upper_p = rows.upper(1), inverse = hn::Div(one, u.scaling);
   const Vec<D> x = hn::Mul(hn::Mul(hn::Set(d, c.theta), u.value), inverse), w = hn::Mul(rest, inverse);
   const Vec<D> sum = c.theta > 0
                          ? hn::Add(one, x)
@@ -157,31 +157,32 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
     scaled = hn::MulAdd(hn::Set(d, c.size), z, divisor);
   }
   const Vec<D> value = hn::Div(tail == Tail::lower ? hn::Mul(rest, z) : hn::Mul(distance, w), scaled);
-  return probability_within(d, value, hn::Set(d, 40 * kEpsilon), kInverseTolerance,
-                            hn::And(is_inside(d, u.value), is_inside(d, p)));
+  return probability_within(d, value, hn::Set(d, 40 * Precision<D>::kUnit), kInverseTolerance,
+                            hn::And(rows.inside(0), rows.inside(1)));
 }
 
+struct Formulas {
+  static bool answers_log_pdf(const KernelConstants& c, Index columns) {
+    return columns == 2 || (c.theta > 0 && c.polynomial.usable());
+  }
+  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+
+  template <class D>
+  static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
+    return log_pdf_row(d, c, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_row(d, c, tail, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional_inverse(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_inverse_row(d, c, tail, rows);
+  }
+};
+
 const KernelTable<KernelConstants>* table() {
-  static constexpr KernelTable<KernelConstants> kTable = {
-      .log_pdf =
-          [](const KernelConstants& c, const Rows& rows, double* out) {
-            if (rows.columns > 2 && (c.theta < 0 || !c.polynomial.usable())) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
-          },
-      .conditional =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out,
-                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
-          },
-      .conditional_inverse =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
-              return conditional_inverse_row(d, c, tail, columns);
-            });
-          }};
-  return &kTable;
+  return table_of<Formulas, KernelConstants>();
 }
 
 }  // namespace sklar::families::amh::HWY_NAMESPACE

@@ -34,13 +34,12 @@ using namespace sklar::simd::HWY_NAMESPACE::formulas;
 template <class D>
 struct Sums {
   HWY_INLINE Sums(D d, const KernelConstants& c, const Columns<D>& rows, Index count)
-      : growth(hn::Zero(d)), logs(growth), inside(is_inside(d, rows[0])) {
+      : growth(hn::Zero(d)), logs(growth), inside(rows.inside(0)) {
     const bool few = count <= 2;  // two terms need no compensation
     Sum<D> growths(d), log_sum(d);
     for (Index k = 0; k < count; ++k) {
-      const Vec<D> u = rows[k];
-      inside = hn::And(inside, is_inside(d, u));
-      const Vec<D> log_u = log(d, u), growth_u = expm1(d, hn::Mul(hn::Set(d, -c.theta), log_u));
+      inside = hn::And(inside, rows.inside(k));
+      const Vec<D> log_u = rows.log_of(k), growth_u = expm1(d, hn::Mul(hn::Set(d, -c.theta), log_u));
       if (few) {
         growth = hn::Add(growth, growth_u);
         logs = hn::Add(logs, log_u);
@@ -75,7 +74,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const Vec<D> value = hn::NegMulAdd(hn::Set(d, power), log_sum, front);
   const Vec<D> of_logs = hn::MulAdd(hn::Set(d, -3 * (1 + c.theta)), sums.logs, hn::Set(d, 2 * rising));
   const Vec<D> error = hn::MulAdd(hn::Set(d, power), error_of_log1p(d, log_sum, 2.5), of_logs);
-  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, sums.inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, sums.inside);
 }
 
 /// log h = -(j + 1/theta) log1p(E/S), E = expm1(-theta log v), S = 1 + the sum over the j given.
@@ -84,8 +83,8 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
   const Index last = rows.size() - 1;
   const Sums<D> given(d, c, rows, last);
   const double power = static_cast<double>(last) + 1 / c.theta;
-  const Vec<D> v = rows[last], sum = hn::Add(given.growth, hn::Set(d, 1.0));
-  const Vec<D> exponent = hn::Mul(hn::Set(d, -c.theta), log(d, v));
+  const Vec<D> sum = hn::Add(given.growth, hn::Set(d, 1.0));
+  const Vec<D> exponent = hn::Mul(hn::Set(d, -c.theta), rows.log_of(last));
   const Vec<D> ratio = hn::Div(expm1(d, exponent), sum), log_growth = log1p(d, ratio);
   const Vec<D> y = hn::Mul(hn::Set(d, -power), log_growth);
   // Of E: 1.5 + 2 exponent e^exponent/E; of S: 2.5 (1 + log S) at most, log S <= exponent sizes of the given.
@@ -93,8 +92,8 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
       hn::MulAdd(hn::Set(d, 2.0), exponent, hn::MulAdd(hn::Set(d, 2.5), log(d, sum), hn::Set(d, 8.0)));
   const Vec<D> share = hn::Min(log_growth, hn::Set(d, 1.0));
   const Vec<D> error = hn::MulAdd(hn::Set(d, power), hn::Mul(of_ratio, share), hn::Mul(hn::Set(d, -2.0), y));
-  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kHTolerance,
-                     hn::And(given.inside, is_inside(d, v)));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kHTolerance,
+                     hn::And(given.inside, rows.inside(last)));
 }
 
 /// log v = -log1p(S expm1(-log p / (j + 1/theta))) / theta.
@@ -103,36 +102,40 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
   const Index last = rows.size() - 1;
   const Sums<D> given(d, c, rows, last);
   const double power = static_cast<double>(last) + 1 / c.theta;
-  const Vec<D> p = rows[last], sum = hn::Add(given.growth, hn::Set(d, 1.0));
-  const Vec<D> exponent = hn::Mul(hn::Set(d, -1 / power), log(d, p));
+  const Vec<D> sum = hn::Add(given.growth, hn::Set(d, 1.0));
+  const Vec<D> exponent = hn::Mul(hn::Set(d, -1 / power), rows.log_of(last));
   const Vec<D> growth = hn::Mul(expm1(d, exponent), sum), log_growth = log1p(d, growth);
   const Vec<D> y = hn::Mul(hn::Set(d, -1 / c.theta), log_growth);
   const Vec<D> of_growth =
       hn::MulAdd(hn::Set(d, 2.5), log(d, sum), hn::MulAdd(hn::Set(d, 2.0), exponent, hn::Set(d, 8.0)));
   const Vec<D> share = hn::Min(log_growth, hn::Set(d, 1.0));
   const Vec<D> error = hn::MulAdd(hn::Set(d, 1 / c.theta), hn::Mul(of_growth, share), hn::Mul(hn::Set(d, -2.0), y));
-  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kInverseTolerance,
-                     hn::And(given.inside, is_inside(d, p)));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kInverseTolerance,
+                     hn::And(given.inside, rows.inside(last)));
 }
 
+struct Formulas {
+  static bool answers_log_pdf([[maybe_unused]] const KernelConstants& c, [[maybe_unused]] Index columns) {
+    return true;
+  }
+  static bool answers_conditional(const KernelConstants&, [[maybe_unused]] Index columns) { return true; }
+
+  template <class D>
+  static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
+    return log_pdf_row(d, c, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_row(d, c, tail, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional_inverse(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_inverse_row(d, c, tail, rows);
+  }
+};
+
 const KernelTable<KernelConstants>* table() {
-  static constexpr KernelTable<KernelConstants> kTable = {
-      .log_pdf =
-          [](const KernelConstants& c, const Rows& rows, double* out) {
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
-          },
-      .conditional =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            for_each_row(rows, out,
-                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
-          },
-      .conditional_inverse =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
-              return conditional_inverse_row(d, c, tail, columns);
-            });
-          }};
-  return &kTable;
+  return table_of<Formulas, KernelConstants>();
 }
 
 }  // namespace sklar::families::clayton::HWY_NAMESPACE

@@ -28,7 +28,7 @@ struct KernelConstants {
         tail(std::exp(-theta)),
         upper_scale(std::expm1(theta)),
         log_theta_by_q(std::log(theta / q)),
-        lowest(std::numeric_limits<double>::min() * std::max(1.0, 4 / theta)),
+        widening(std::max(1.0, 4 / theta)),
         polynomial(std::move(coefficients)) {}
 
   double theta;  // absolute value
@@ -38,7 +38,7 @@ struct KernelConstants {
   double tail;         // e^-theta
   double upper_scale;  // e^theta - 1
   double log_theta_by_q;
-  double lowest;  // theta u is a normal number from here on
+  double widening;  // theta u is a normal number from this multiple of the smallest on
   Coefficients polynomial;
 };
 
@@ -51,9 +51,11 @@ namespace sklar::families::frank::HWY_NAMESPACE {
 using namespace sklar::simd;
 using namespace sklar::simd::HWY_NAMESPACE::formulas;
 
+/// Whether u is inside and theta u and e^(-theta u) are normal numbers.
 template <class D>
-HWY_INLINE Mask<D> is_inside(D d, const KernelConstants& c, Vec<D> u) {
-  return hn::And(hn::Ge(u, hn::Set(d, c.lowest)), hn::Lt(u, hn::Set(d, 1.0)));
+HWY_INLINE Mask<D> is_inside(const KernelConstants& c, const Columns<D>& rows, Index k) {
+  if (c.theta > -Precision<D>::kLowestExponent) return rows.inside(k, 2.0);  // none
+  return rows.inside(k, Precision<D>::kSmallest * c.widening);
 }
 
 /// exp(-theta u) and 1 - exp(-theta u).
@@ -72,10 +74,8 @@ struct Weight {
 /// 1 - x = 1 - X Y / q or (X e^(-theta v) + e^(-theta u) - e^-theta) / q, whichever does not cancel.
 template <class D>
 HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& rows) {
-  Vec<D> u = rows[0];
-  const Vec<D> v = rows[1];
-  const auto inside = hn::And(is_inside(d, c, u), is_inside(d, c, v));
-  if (c.negative) u = hn::Sub(hn::Set(d, 1.0), u);
+  const Vec<D> u = c.negative ? rows.upper(0) : rows[0], v = rows[1];
+  const auto inside = hn::And(is_inside(c, rows, 0), is_inside(c, rows, 1));
   const Weight<D> larger(d, c, hn::Max(u, v)), smaller(d, c, hn::Min(u, v));
   const Vec<D> scaled = hn::Mul(larger.value, hn::Set(d, c.inverse_q));
   const Vec<D> direct = hn::NegMulAdd(scaled, smaller.value, hn::Set(d, 1.0));
@@ -83,8 +83,11 @@ HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> sum = hn::MulAdd(scaled, smaller.rest, difference);
   const Vec<D> complement = hn::IfThenElse(hn::Gt(larger.value, hn::Set(d, 0.5)), sum, direct);
   const Vec<D> front = hn::NegMulAdd(hn::Set(d, c.theta), hn::Add(u, v), hn::Set(d, c.log_theta_by_q));
-  const Vec<D> value = hn::NegMulAdd(hn::Set(d, 2.0), log(d, complement), front);
-  return log_within(d, {value, hn::Set(d, kEpsilon * (7 * c.theta + 15))}, inside);
+  const Vec<D> log_complement = log(d, complement);
+  const Vec<D> value = hn::NegMulAdd(hn::Set(d, 2.0), log_complement, front);
+  const Vec<D> error = hn::Sub(hn::MulAdd(hn::Set(d, c.theta), hn::Add(u, v), hn::Set(d, 2 * c.theta + 15)),
+                               hn::Mul(hn::Set(d, 3.0), log_complement));
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 
 /// log c = (d-1) log(theta/q) - theta sum u_i + log R_d(x/w) - log w, x = q prod a_i, a_i = (1 - e^(-theta u_i)) / q.
@@ -94,10 +97,10 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> inverse_q = hn::Set(d, c.inverse_q);
   Product<D> product(d);
   Sum<D> sum(d);
-  auto inside = is_inside(d, c, rows[0]);
+  auto inside = is_inside(c, rows, 0);
   for (Index k = 0; k < rows.size(); ++k) {
     const Vec<D> u = rows[k];
-    inside = hn::And(inside, is_inside(d, c, u));
+    inside = hn::And(inside, is_inside(c, rows, k));
     const Weight<D> a(d, c, u);
     product.multiply(d, hn::Mul(a.value, inverse_q), hn::Mul(hn::Sub(a.rest, hn::Set(d, c.tail)), inverse_q));
     sum.add(d, u);
@@ -110,7 +113,7 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), sum.value());
   const Vec<D> value = hn::Add(hn::Sub(hn::Set(d, constant), exponent), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, 1.5), exponent, hn::Set(d, 2 * constant)), term.error);
-  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 
 template <class D>
@@ -123,24 +126,20 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
 /// delta = 1 - a = e^-theta expm1(theta (1-v)) / q.
 template <class D>
 HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Vec<D> one = hn::Set(d, 1.0);
-  Vec<D> u = rows[0];
-  const Vec<D> v = rows[1];
-  const auto inside = hn::And(is_inside(d, c, u), is_inside(d, c, v));
-  if (c.negative) u = hn::Sub(one, u);
-  const Weight<D> given(d, c, u);
+  const auto inside = hn::And(is_inside(c, rows, 0), is_inside(c, rows, 1));
+  const Weight<D> given(d, c, c.negative ? rows.upper(0) : rows[0]);
   Vec<D> value;
   if (tail == Tail::lower) {
-    const Weight<D> a(d, c, v);
+    const Weight<D> a(d, c, rows[1]);
     const Vec<D> delta = hn::Mul(hn::Sub(a.rest, hn::Set(d, c.tail)), hn::Set(d, c.inverse_q));
     const Vec<D> divisor = hn::MulAdd(given.value, delta, given.rest);
     value = hn::Div(hn::Mul(hn::Mul(a.value, hn::Set(d, c.inverse_q)), given.rest), divisor);
   } else {
-    const Vec<D> growth = expm1(d, hn::Mul(hn::Set(d, c.theta), hn::Sub(one, v)));
+    const Vec<D> growth = expm1(d, hn::Mul(hn::Set(d, c.theta), rows.upper(1)));
     const Vec<D> delta = hn::Mul(growth, hn::Set(d, c.tail * c.inverse_q));
     value = hn::Div(delta, hn::MulAdd(given.value, delta, given.rest));
   }
-  return probability_within(d, value, hn::Set(d, kEpsilon * (3 * c.theta + 12)), kHTolerance, inside);
+  return probability_within(d, value, hn::Set(d, Precision<D>::kUnit * (3 * c.theta + 12)), kHTolerance, inside);
 }
 
 /// a = p / (p + r (1-p)), delta = r (1-p) / (p + r (1-p)); v = -log(1 - q a) / theta with 1 - q a = e^-theta + q delta,
@@ -148,11 +147,9 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
 template <class D>
 HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Vec<D> one = hn::Set(d, 1.0);
-  Vec<D> u = rows[0];
-  const Vec<D> p = rows[1];
-  const auto inside = hn::And(is_inside(d, c, u), is_inside(d, c, p));
-  if (c.negative) u = hn::Sub(one, u);
-  const Vec<D> rest = hn::Mul(exp(d, hn::Mul(hn::Set(d, -c.theta), u)), hn::Sub(one, p));
+  const Vec<D> u = c.negative ? rows.upper(0) : rows[0], p = rows[1];
+  const auto inside = hn::And(is_inside(c, rows, 0), is_inside(c, rows, 1));
+  const Vec<D> rest = hn::Mul(exp(d, hn::Mul(hn::Set(d, -c.theta), u)), rows.upper(1));
   const Vec<D> inverse_sum = hn::Div(one, hn::Add(p, rest)), delta = hn::Mul(rest, inverse_sum);
   Vec<D> value;
   if (tail == Tail::lower) {
@@ -162,30 +159,31 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
   } else {
     value = hn::Mul(log1p(d, hn::Mul(hn::Set(d, c.upper_scale), delta)), hn::Set(d, 1 / c.theta));
   }
-  return probability_within(d, value, hn::Set(d, kEpsilon * (2 * c.theta + 20)), kInverseTolerance, inside);
+  return probability_within(d, value, hn::Set(d, Precision<D>::kUnit * (2 * c.theta + 20)), kInverseTolerance, inside);
 }
 
+struct Formulas {
+  static bool answers_log_pdf(const KernelConstants& c, Index columns) {
+    return columns == 2 || (!c.negative && c.polynomial.usable());
+  }
+  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+
+  template <class D>
+  static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
+    return log_pdf_row(d, c, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_row(d, c, tail, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional_inverse(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_inverse_row(d, c, tail, rows);
+  }
+};
+
 const KernelTable<KernelConstants>* table() {
-  static constexpr KernelTable<KernelConstants> kTable = {
-      .log_pdf =
-          [](const KernelConstants& c, const Rows& rows, double* out) {
-            if (rows.columns > 2 && (c.negative || !c.polynomial.usable())) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
-          },
-      .conditional =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out,
-                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
-          },
-      .conditional_inverse =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
-              return conditional_inverse_row(d, c, tail, columns);
-            });
-          }};
-  return &kTable;
+  return table_of<Formulas, KernelConstants>();
 }
 
 }  // namespace sklar::families::frank::HWY_NAMESPACE

@@ -22,7 +22,6 @@ struct KernelConstants {
 };
 
 constexpr int kMostSteps = 8;
-constexpr double kLastStep = 1e-6;  // relative: the next step of a method of order 3 is far below rounding
 
 }  // namespace sklar::families::gumbel
 #endif
@@ -33,6 +32,10 @@ namespace sklar::families::gumbel::HWY_NAMESPACE {
 using namespace sklar::simd;
 using namespace sklar::simd::HWY_NAMESPACE::formulas;
 
+// Relative: the next step of a method of order 3 is far below rounding.
+template <class D>
+constexpr double kLastStep = Precision<D>::kSingle ? 2e-3 : 1e-6;
+
 /// log c = (theta-1) (sum log x_i - d log s) + sum x_i - s + log R_d(1/s), s^theta = sum x_i^theta.
 template <class D>
 HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
@@ -40,18 +43,17 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const double excess = c.theta - 1;
   Sum<D> powers(d), x_sum(d), log_sum(d);
   Vec<D> sizes = hn::Zero(d);  // sum |log x_i|
-  auto inside = is_inside(d, rows[0]);
+  auto inside = rows.inside(0);
   for (Index k = 0; k < rows.size(); ++k) {
-    const Vec<D> u = rows[k];
-    inside = hn::And(inside, is_inside(d, u));
-    const Vec<D> x = hn::Neg(log(d, u)), log_x = log(d, x), exponent = hn::Mul(hn::Set(d, c.theta), log_x);
+    inside = hn::And(inside, rows.inside(k));
+    const Vec<D> x = hn::Neg(rows.log_of(k)), log_x = log(d, x), exponent = hn::Mul(hn::Set(d, c.theta), log_x);
     powers.add(d, exp(d, exponent));
     x_sum.add(d, x);
     log_sum.add(d, log_x);
     sizes = hn::Add(sizes, hn::Abs(log_x));
   }
   const Vec<D> log_power = log(d, powers.value()), log_s = hn::Mul(log_power, hn::Set(d, 1 / c.theta));
-  inside = hn::And(inside, hn::Gt(log_power, hn::Set(d, kLowestExponent)));
+  inside = hn::And(inside, hn::Gt(log_power, hn::Set(d, Precision<D>::kLowestExponent)));
   const Vec<D> s = exp(d, log_s);
   const LogPolynomial<D> polynomial = log_polynomial(d, c.polynomial, hn::Set(d, 1.0), s);
   const Vec<D> ratios = hn::NegMulAdd(hn::Set(d, n), log_s, log_sum.value());
@@ -63,18 +65,17 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const Vec<D> of_ratios = hn::MulAdd(hn::Set(d, 2.5 * excess), sizes, hn::Set(d, 1.5 * excess * n));
   const Vec<D> of_rest =
       hn::MulAdd(hn::Set(d, 2.5), hn::Add(x_sum.value(), s), hn::Abs(hn::Add(polynomial.log, polynomial.log)));
-  const Vec<D> steps = hn::Set(d, n + 2 + c.polynomial.relative_error / kEpsilon);
+  const Vec<D> steps = hn::Set(d, n + 2 + c.polynomial.relative_error / Precision<D>::kUnit);
   const Vec<D> error = hn::MulAdd(of_log_s, weight, hn::Add(hn::Add(of_ratios, of_rest), steps));
-  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 
 /// -log h = x expm1(l) + (theta-1) l, l = log1p((y/x)^theta) / theta.
 template <class D>
 HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Vec<D> u = rows[0], v = rows[1];
-  const Vec<D> x = hn::Neg(log(d, u)), log_ratio = log(d, hn::Div(hn::Neg(log(d, v)), x));
+  const Vec<D> x = hn::Neg(rows.log_of(0)), log_ratio = log(d, hn::Div(hn::Neg(rows.log_of(1)), x));
   const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), log_ratio);
-  const auto in_range = hn::Gt(exponent, hn::Set(d, kLowestExponent));
+  const auto in_range = hn::Gt(exponent, hn::Set(d, Precision<D>::kLowestExponent));
   const Vec<D> l = hn::Mul(log1p(d, exp(d, exponent)), hn::Set(d, 1 / c.theta));
   const Vec<D> growth = expm1(d, l), slope = hn::MulAdd(x, hn::Add(growth, hn::Set(d, 1.0)), hn::Set(d, c.theta - 1));
   const Vec<D> y = hn::Neg(hn::MulAdd(x, growth, hn::Mul(hn::Set(d, c.theta - 1), l)));
@@ -83,16 +84,16 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
   const Vec<D> of_power = hn::MulAdd(hn::Set(d, 2.5), hn::Abs(exponent), hn::Set(d, 4.0 * c.theta + 4));
   const Vec<D> of_l = hn::MulAdd(of_power, share, hn::Mul(hn::Set(d, 2.0), l));
   const Vec<D> error = hn::MulAdd(of_l, slope, hn::Mul(hn::Set(d, -4.0), y));
-  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kHTolerance,
-                     hn::And(in_range, hn::And(is_inside(d, u), is_inside(d, v))));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kHTolerance,
+                     hn::And(in_range, hn::And(rows.inside(0), rows.inside(1))));
 }
 
 /// l by Halley's iteration for the convex x expm1(l) + (theta-1) l = -log p from a point below the root, then
 /// y = x e^l (1 - e^(-theta l))^(1/theta), v = e^-y.
 template <class D>
 HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Vec<D> u = rows[0], p = rows[1], excess = hn::Set(d, c.theta - 1);
-  const Vec<D> x = hn::Neg(log(d, u)), target = hn::Neg(log(d, p));
+  const Vec<D> excess = hn::Set(d, c.theta - 1);
+  const Vec<D> x = hn::Neg(rows.log_of(0)), target = hn::Neg(rows.log_of(1));
   Vec<D> l = log1p(d, hn::Div(target, hn::Add(x, excess)));
   Exponential<D> e = exponential(d, l);
   auto moving = hn::Gt(l, hn::Zero(d));  // a lane that has arrived stays, whatever its neighbours do
@@ -104,7 +105,7 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
         hn::Div(hn::Mul(twice, slope), hn::NegMulAdd(excess_value, second, hn::Mul(hn::Add(slope, slope), slope)));
     l = hn::Sub(l, hn::IfThenElseZero(moving, step));
     e = exponential(d, l);
-    moving = hn::And(moving, hn::Gt(hn::Abs(step), hn::Mul(hn::Set(d, kLastStep), l)));
+    moving = hn::And(moving, hn::Gt(hn::Abs(step), hn::Mul(hn::Set(d, kLastStep<D>), l)));
   }
   const Vec<D> log_loss = log(d, hn::Neg(expm1(d, hn::Mul(hn::Set(d, -c.theta), l))));
   const Vec<D> factor = exp(d, hn::Mul(log_loss, hn::Set(d, 1 / c.theta)));
@@ -112,32 +113,33 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
   // Of l: 6 relative, from both sides of the equation, times max(1, theta l) / theta l of log y.
   const Vec<D> of_log = hn::Add(hn::MulAdd(hn::Set(d, 8.0), l, hn::Set(d, 20.0)), hn::Abs(log_loss));
   const Vec<D> error = hn::Mul(of_log, hn::Neg(y));
-  const auto found = hn::And(hn::Gt(l, hn::Set(d, std::numeric_limits<double>::min())), hn::Not(moving));
-  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kInverseTolerance,
-                     hn::And(found, hn::And(is_inside(d, u), is_inside(d, p))));
+  const auto found = hn::And(hn::Gt(l, hn::Set(d, Precision<D>::kSmallest)), hn::Not(moving));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kInverseTolerance,
+                     hn::And(found, hn::And(rows.inside(0), rows.inside(1))));
 }
 
+struct Formulas {
+  static bool answers_log_pdf(const KernelConstants& c, [[maybe_unused]] Index columns) {
+    return c.polynomial.usable();
+  }
+  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+
+  template <class D>
+  static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
+    return log_pdf_row(d, c, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_row(d, c, tail, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional_inverse(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_inverse_row(d, c, tail, rows);
+  }
+};
+
 const KernelTable<KernelConstants>* table() {
-  static constexpr KernelTable<KernelConstants> kTable = {
-      .log_pdf =
-          [](const KernelConstants& c, const Rows& rows, double* out) {
-            if (!c.polynomial.usable()) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
-          },
-      .conditional =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out,
-                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
-          },
-      .conditional_inverse =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
-              return conditional_inverse_row(d, c, tail, columns);
-            });
-          }};
-  return &kTable;
+  return table_of<Formulas, KernelConstants>();
 }
 
 }  // namespace sklar::families::gumbel::HWY_NAMESPACE

@@ -24,7 +24,6 @@ struct KernelConstants {
 };
 
 constexpr int kMostSteps = 20;
-constexpr double kLastStep = 1e-9;  // relative: the next step of a method of order 2 is below rounding
 
 }  // namespace sklar::families::joe
 #endif
@@ -35,10 +34,14 @@ namespace sklar::families::joe::HWY_NAMESPACE {
 using namespace sklar::simd;
 using namespace sklar::simd::HWY_NAMESPACE::formulas;
 
+// Relative: the next step of a method of order 2 is below rounding.
+template <class D>
+constexpr double kLastStep = Precision<D>::kSingle ? 1e-4 : 1e-9;
+
 /// log(1-u), q = (1-u)^theta and p = 1 - q.
 template <class D>
 struct Weight {
-  HWY_INLINE Weight(D d, const KernelConstants& c, Vec<D> u) : log_upper(log1p(d, hn::Neg(u))) {
+  HWY_INLINE Weight(D d, const KernelConstants& c, const Columns<D>& rows, Index k) : log_upper(rows.log_of_upper(k)) {
     const Exponential<D> e = exponential(d, hn::Mul(hn::Set(d, c.theta), log_upper));
     q = e.exp;
     p = hn::Neg(e.expm1);
@@ -53,15 +56,15 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const auto n = static_cast<double>(rows.size());
   Product<D> product(d);
   Sum<D> log_sum(d);
-  auto inside = is_inside(d, rows[0]);
+  auto inside = rows.inside(0);
   for (Index k = 0; k < rows.size(); ++k) {
-    inside = hn::And(inside, is_inside(d, rows[k]));
-    const Weight<D> weight(d, c, rows[k]);
+    inside = hn::And(inside, rows.inside(k));
+    const Weight<D> weight(d, c, rows, k);
     product.multiply(d, weight.p, weight.q);
     log_sum.add(d, weight.log_upper);
   }
   const auto parts = product.parts(d, 1.0, 0.0);
-  inside = hn::And(inside, hn::Gt(parts.w, hn::Set(d, kSmallestProbability)));
+  inside = hn::And(inside, hn::Gt(parts.w, hn::Set(d, Precision<D>::kSmallestProbability)));
   // q |log q| is below 1 - q, and where q is below w, below w max(1, |log w|).
   const Vec<D> of_w =
       hn::MulAdd(hn::Set(d, 2.0), hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0)), hn::Set(d, n / 2 + 3));
@@ -69,13 +72,13 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const Vec<D> upper = hn::Mul(hn::Set(d, c.theta - 1), log_sum.value());
   const Vec<D> value = hn::Add(hn::Add(hn::Set(d, (n - 1) * c.log_theta), upper), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -2.5), upper, hn::Set(d, 2 * n * c.log_theta)), term.error);
-  return log_within(d, {value, hn::Mul(hn::Set(d, kEpsilon), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 
 /// log h = log p_v - (1 - 1/theta) log1p(p_u q_v / q_u).
 template <class D>
 HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Weight<D> u(d, c, rows[0]), v(d, c, rows[1]);
+  const Weight<D> u(d, c, rows, 0), v(d, c, rows, 1);
   const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), hn::Sub(v.log_upper, u.log_upper));
   const Vec<D> ratio = hn::Mul(u.p, exp(d, exponent)), log_growth = log1p(d, ratio);
   const Vec<D> log_p = log_of_complement(d, v.p, v.q);
@@ -87,17 +90,17 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
   // Of log p: relative 2 z + 4 where q is small, and q z / p <= 1 + log p where it is not.
   const Vec<D> of_p = hn::Min(hn::Mul(of_v, hn::Neg(log_p)), hn::MulAdd(hn::Set(d, -2.0), log_p, hn::Set(d, 5.0)));
   const Vec<D> error = hn::Add(hn::MulAdd(of_ratio, share, of_p), hn::Mul(hn::Set(d, -2.0), y));
-  return probability(d, tail, y, hn::Mul(hn::Set(d, kEpsilon), error), kHTolerance,
-                     hn::And(is_inside(d, rows[0]), is_inside(d, rows[1])));
+  return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kHTolerance,
+                     hn::And(rows.inside(0), rows.inside(1)));
 }
 
 /// s = -log p_v by Newton's iteration for the concave s + (1 - 1/theta) log1p(k (1 - e^-s)) = -log p, k = p_u / q_u,
 /// from a point below the root; q_v = 1 - e^-s, 1 - v = q_v^(1/theta).
 template <class D>
 HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Weight<D> u(d, c, rows[0]);
-  const Vec<D> p = rows[1], rest = hn::Set(d, c.rest), one = hn::Set(d, 1.0);
-  const Vec<D> odds = hn::Div(u.p, u.q), target = hn::Neg(log(d, p));
+  const Weight<D> u(d, c, rows, 0);
+  const Vec<D> rest = hn::Set(d, c.rest), one = hn::Set(d, 1.0);
+  const Vec<D> odds = hn::Div(u.p, u.q), target = hn::Neg(rows.log_of(1));
   Vec<D> s = hn::Div(target, hn::MulAdd(rest, odds, one)), slope = one;
   Exponential<D> e = exponential(d, hn::Neg(s));
   auto moving = hn::Gt(s, hn::Zero(d));  // a lane that has arrived stays, whatever its neighbours do
@@ -109,41 +112,42 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
     slope = hn::IfThenElse(moving, new_slope, slope);
     s = hn::Add(s, hn::IfThenElseZero(moving, step));
     e = exponential(d, hn::Neg(s));
-    moving = hn::And(moving, hn::Gt(hn::Abs(step), hn::Mul(hn::Set(d, kLastStep), s)));
+    moving = hn::And(moving, hn::Gt(hn::Abs(step), hn::Mul(hn::Set(d, kLastStep<D>), s)));
   }
   const Vec<D> q = hn::Neg(e.expm1), log_upper = hn::Mul(log_of_complement(d, q, e.exp), hn::Set(d, 1 / c.theta));
   // Of s: what odds carry, and the target's 1.5 by how much s answers it.
   const Vec<D> of_odds = hn::MulAdd(hn::Set(d, -2.5 * c.theta), u.log_upper, hn::Set(d, 8.0));
   const Vec<D> of_s = hn::MulAdd(hn::Set(d, 4.0), hn::Div(target, hn::Mul(slope, s)), of_odds);
   const Vec<D> error = hn::MulAdd(of_s, hn::Set(d, 1 / c.theta), hn::Mul(hn::Set(d, -2.0), log_upper));
-  const auto in_range =
-      hn::And(hn::Gt(u.q, hn::Set(d, kSmallestProbability)), hn::Gt(q, hn::Set(d, kSmallestProbability)));
+  const auto in_range = hn::And(hn::Gt(u.q, hn::Set(d, Precision<D>::kSmallestProbability)),
+                                hn::Gt(q, hn::Set(d, Precision<D>::kSmallestProbability)));
   return probability(d, tail == Tail::lower ? Tail::upper : Tail::lower, log_upper,
-                     hn::Mul(hn::Set(d, kEpsilon), error), kInverseTolerance,
-                     hn::And(hn::And(in_range, hn::Not(moving)), hn::And(is_inside(d, rows[0]), is_inside(d, p))));
+                     hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kInverseTolerance,
+                     hn::And(hn::And(in_range, hn::Not(moving)), hn::And(rows.inside(0), rows.inside(1))));
 }
 
+struct Formulas {
+  static bool answers_log_pdf(const KernelConstants& c, [[maybe_unused]] Index columns) {
+    return c.polynomial.usable();
+  }
+  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+
+  template <class D>
+  static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
+    return log_pdf_row(d, c, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_row(d, c, tail, rows);
+  }
+  template <class D>
+  static HWY_INLINE Vec<D> conditional_inverse(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+    return conditional_inverse_row(d, c, tail, rows);
+  }
+};
+
 const KernelTable<KernelConstants>* table() {
-  static constexpr KernelTable<KernelConstants> kTable = {
-      .log_pdf =
-          [](const KernelConstants& c, const Rows& rows, double* out) {
-            if (!c.polynomial.usable()) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR { return log_pdf_row(d, c, columns); });
-          },
-      .conditional =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out,
-                         [&](auto d, const auto& columns) HWY_ATTR { return conditional_row(d, c, tail, columns); });
-          },
-      .conditional_inverse =
-          [](const KernelConstants& c, const Rows& rows, Tail tail, double* out) {
-            if (rows.columns != 2) return leave_all(rows, out);
-            for_each_row(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
-              return conditional_inverse_row(d, c, tail, columns);
-            });
-          }};
-  return &kTable;
+  return table_of<Formulas, KernelConstants>();
 }
 
 }  // namespace sklar::families::joe::HWY_NAMESPACE

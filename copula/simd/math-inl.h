@@ -1,7 +1,7 @@
 /// Vector exp, expm1, log and log1p for one instruction set; included once for each (see Highway's foreach_target.h).
 /// D is a Highway tag of float or double lanes. Polynomials: minimax in the relative error of expm1(r) and log(1+f).
 ///
-/// Relative errors: at most 1.5 2^-52 (double) and 2^-21 (float). Outside these ranges the result is NaN:
+/// Relative errors: at most 1.5 units of 2^-52 (double) or 2^-23 (float). Outside these ranges the result is NaN:
 ///   exponential  x <= 709 (88); below -708 (-87) as at that end: e^x up to 3.4e-308 (1.7e-38) instead of less
 ///   log          normal positive x
 ///   log1p        1 + x normal and positive

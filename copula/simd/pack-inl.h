@@ -115,15 +115,15 @@ SKLAR_LIFT_FUNCTION_2(log_of_complement)
 #undef SKLAR_LIFT_FUNCTION_2
 
 template <class D>
-HWY_INLINE Vec<D> Set(D, typename D::Scalar x) {
+HWY_INLINE Vec<D> Set(D, double x) {
   Vec<D> result;
-  SKLAR_FOR_EACH_PART result.part[i] = hn::Set(typename D::Part(), x);
+  SKLAR_FOR_EACH_PART result.part[i] = hn::Set(typename D::Part(), static_cast<typename D::Scalar>(x));
   return result;
 }
 
 template <class D>
 HWY_INLINE Vec<D> Zero(D d) {
-  return Set(d, typename D::Scalar(0));
+  return Set(d, 0.0);
 }
 
 template <class D>
@@ -133,18 +133,65 @@ HWY_INLINE Vec<D> NaN(D) {
   return result;
 }
 
-template <class D>
-HWY_INLINE Vec<D> LoadU(D, const typename D::Scalar* from) {
+/// Where the numbers in memory are doubles: change of them before they are rounded to the lanes' type.
+struct Unchanged {
+  template <class V>
+  HWY_INLINE V operator()(V x) const {
+    return x;
+  }
+};
+struct OneMinus {
+  template <class V>
+  HWY_INLINE V operator()(V x) const {
+    return hn::Sub(hn::Set(hn::DFromV<V>(), 1.0), x);
+  }
+};
+
+template <class Change>
+HWY_INLINE hn::Vec<hn::ScalableTag<double>> load(hn::ScalableTag<double> d, const double* from, Change change) {
+  return change(hn::LoadU(d, from));
+}
+
+template <class Change>
+HWY_INLINE hn::Vec<hn::ScalableTag<float>> load(hn::ScalableTag<float> d, const double* from, Change change) {
+  const hn::ScalableTag<double> wide;
+  const hn::Rebind<float, decltype(wide)> half;
+  const auto low = hn::DemoteTo(half, change(hn::LoadU(wide, from)));
+#if HWY_TARGET == HWY_SCALAR
+  (void)d;
+  return low;
+#else
+  return hn::Combine(d, hn::DemoteTo(half, change(hn::LoadU(wide, from + hn::Lanes(wide)))), low);
+#endif
+}
+
+HWY_INLINE void store(hn::Vec<hn::ScalableTag<double>> x, hn::ScalableTag<double> d, double* to) {
+  hn::StoreU(x, d, to);
+}
+
+HWY_INLINE void store(hn::Vec<hn::ScalableTag<float>> x, hn::ScalableTag<float>, double* to) {
+  const hn::ScalableTag<double> wide;
+#if HWY_TARGET == HWY_SCALAR
+  hn::StoreU(hn::PromoteTo(wide, x), wide, to);
+#else
+  const hn::Rebind<float, decltype(wide)> half;
+  hn::StoreU(hn::PromoteTo(wide, hn::LowerHalf(half, x)), wide, to);
+  hn::StoreU(hn::PromoteTo(wide, hn::UpperHalf(half, x)), wide, to + hn::Lanes(wide));
+#endif
+}
+
+template <class D, class Change = Unchanged>
+HWY_INLINE Vec<D> load(D, const double* from, Change change = {}) {
   const typename D::Part d;
   Vec<D> result;
-  SKLAR_FOR_EACH_PART result.part[i] = hn::LoadU(d, from + static_cast<std::size_t>(i) * hn::Lanes(d));
+  SKLAR_FOR_EACH_PART result.part[i] = load(d, from + static_cast<std::size_t>(i) * hn::Lanes(d), change);
   return result;
 }
 
 template <class D>
-HWY_INLINE void StoreU(const Vec<D>& x, D, typename D::Scalar* to) {
+HWY_INLINE void store(const Vec<D>& x, D, double* to) {
   const typename D::Part d;
-  SKLAR_FOR_EACH_PART hn::StoreU(x.part[i], d, to + static_cast<std::size_t>(i) * hn::Lanes(d));
+  SKLAR_FOR_EACH_PART store(x.part[i], d, to + static_cast<std::size_t>(i) * hn::Lanes(d));
 }
 
 template <class D>

@@ -58,7 +58,7 @@ HWY_INLINE Estimate<D> log_ratio_term(D d, const Coefficients& r, const typename
                                       hn::Div(hn::Mul(derivative, of_x), parts.w));
   const Vec<D> sizes = hn::Add(hn::Abs(polynomial.log), hn::Abs(log_w));
   const auto n = static_cast<double>(r.c.size());
-  const Vec<D> steps = hn::Add(moved, hn::Set(d, n + 2 + r.relative_error / kEpsilon));
+  const Vec<D> steps = hn::Add(moved, hn::Set(d, n + 2 + r.relative_error / Precision<D>::kUnit));
   return {hn::Sub(polynomial.log, log_w), hn::MulAdd(hn::Set(d, 2.0), sizes, steps)};
 }
 

@@ -19,14 +19,51 @@
 HWY_BEFORE_NAMESPACE();
 namespace sklar::simd::HWY_NAMESPACE::formulas {
 
-/// The coordinates of one vector of points.
+/// What depends on the type of the lanes.
+template <class D>
+struct Precision {
+  using Real = typename D::Scalar;
+  static constexpr bool kSingle = sizeof(Real) == sizeof(float);
+
+  /// The unit in which errors are counted. Counting takes every rounding at its worst; in single precision, whose bound
+  /// is tested and not proved, at half of it.
+  static constexpr double kUnit = kSingle ? 0x1p-24 : 0x1p-52;
+  static constexpr double kSmallest = std::numeric_limits<Real>::min();
+  /// e^x for less, as exponential has it, is far below the rounding of e^x here.
+  static constexpr double kLowestExponent = kSingle ? -65 : -650;
+  static constexpr double kSmallestProbability = kSingle ? 1e-30 : 1e-280;
+
+  /// The tolerance of standard accuracy, or that of fast.
+  static constexpr double tolerance(double standard) { return kSingle ? kFastTolerance : standard; }
+};
+
+/// The coordinates of a pack of points.
 template <class D>
 class Columns {
  public:
   Columns(D, const double* first, Index stride, Index size) : first_(first), stride_(stride), size_(size) {}
 
   [[nodiscard]] Index size() const { return size_; }
-  HWY_INLINE Vec<D> operator[](Index k) const { return hn::LoadU(D(), first_ + k * stride_); }
+
+  /// u and 1 - u.
+  HWY_INLINE Vec<D> operator[](Index k) const { return hn::load(D(), first_ + k * stride_); }
+  HWY_INLINE Vec<D> upper(Index k) const { return hn::load(D(), first_ + k * stride_, pack::OneMinus()); }
+
+  /// log u and log(1-u): in single precision from whichever of u and 1 - u is below 1/2, in double both are exact
+  /// enough.
+  HWY_INLINE Vec<D> log_of(Index k) const {
+    if constexpr (Precision<D>::kSingle) return log_of_complement(D(), (*this)[k], upper(k));
+    return log(D(), (*this)[k]);
+  }
+  HWY_INLINE Vec<D> log_of_upper(Index k) const {
+    if constexpr (Precision<D>::kSingle) return log_of_complement(D(), upper(k), (*this)[k]);
+    return log1p(D(), hn::Neg((*this)[k]));
+  }
+
+  /// Whether the coordinate is a normal number below 1.
+  HWY_INLINE Mask<D> inside(Index k, double lowest = Precision<D>::kSmallest) const {
+    return hn::And(hn::Ge((*this)[k], hn::Set(D(), lowest)), hn::Gt(upper(k), hn::Zero(D())));
+  }
 
  private:
   const double* first_;
@@ -39,15 +76,11 @@ struct Estimate {
   Vec<D> value, error;
 };
 
-inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-inline constexpr double kLowestExponent = -650;  ///< e^x for less, as exponential has it, is below 1e-25 of e^x here
-inline constexpr double kSmallestProbability = 1e-280;  ///< what is below is left to the exact route
-
 /// The value where the point is inside and the error at most kLogTolerance max(1, |value|), else NaN.
 template <class D>
 HWY_INLINE Vec<D> log_within(D d, const Estimate<D>& x, Mask<D> inside) {
   const Vec<D> size = hn::Max(hn::Abs(x.value), hn::Set(d, 1.0));
-  const auto good = hn::Le(x.error, hn::Mul(hn::Set(d, kLogTolerance), size));
+  const auto good = hn::Le(x.error, hn::Mul(hn::Set(d, Precision<D>::tolerance(kLogTolerance)), size));
   return hn::IfThenElse(hn::And(good, inside), x.value, hn::NaN(d));
 }
 
@@ -55,8 +88,9 @@ HWY_INLINE Vec<D> log_within(D d, const Estimate<D>& x, Mask<D> inside) {
 /// kSmallestProbability to 1, else NaN.
 template <class D>
 HWY_INLINE Vec<D> probability_within(D d, Vec<D> value, Vec<D> relative_error, double tolerance, Mask<D> inside) {
-  const auto in_range = hn::And(hn::Ge(value, hn::Set(d, kSmallestProbability)), hn::Le(value, hn::Set(d, 1.0)));
-  const auto good = hn::And(in_range, hn::Le(relative_error, hn::Set(d, tolerance)));
+  const auto in_range =
+      hn::And(hn::Ge(value, hn::Set(d, Precision<D>::kSmallestProbability)), hn::Le(value, hn::Set(d, 1.0)));
+  const auto good = hn::And(in_range, hn::Le(relative_error, hn::Set(d, Precision<D>::tolerance(tolerance))));
   return hn::IfThenElse(hn::And(good, inside), value, hn::NaN(d));
 }
 
@@ -64,16 +98,10 @@ HWY_INLINE Vec<D> probability_within(D d, Vec<D> value, Vec<D> relative_error, d
 template <class D>
 HWY_INLINE Vec<D> probability(D d, Tail tail, Vec<D> y, Vec<D> error, double tolerance, Mask<D> inside) {
   const Exponential<D> e = exponential(d, y);
-  const Vec<D> rounding = hn::Set(d, 2 * kEpsilon);
+  const Vec<D> rounding = hn::Set(d, 2 * Precision<D>::kUnit);
   if (tail == Tail::lower) return probability_within(d, e.exp, hn::Add(error, rounding), tolerance, inside);
   const Vec<D> share = hn::Div(hn::Sub(y, hn::Set(d, 1.0)), y);  // |d log(1 - e^y)| <= (1 - 1/y) |dy|
   return probability_within(d, hn::Neg(e.expm1), hn::MulAdd(error, share, rounding), tolerance, inside);
-}
-
-/// Whether the coordinate is a normal number below 1.
-template <class D>
-HWY_INLINE Mask<D> is_inside(D d, Vec<D> u) {
-  return hn::And(hn::Ge(u, hn::Set(d, std::numeric_limits<double>::min())), hn::Lt(u, hn::Set(d, 1.0)));
 }
 
 template <class D>
@@ -99,18 +127,19 @@ class Sum {
 template <class D, class Formula>
 Index fill(D d, Index first, const Rows& rows, double* out, const Formula& formula) {
   for (; first + hn::size(d) <= rows.count; first += hn::size(d)) {
-    hn::StoreU(formula(d, Columns<D>(d, rows.first + first, rows.stride, rows.columns)), d, out + first);
+    hn::store(formula(d, Columns<D>(d, rows.first + first, rows.stride, rows.columns)), d, out + first);
   }
   return first;
 }
 
 /// out[i] = formula(d, columns of row i). A row's value does not depend on its place.
-template <class Formula>
+template <class Real, class Formula>
 void for_each_row(const Rows& rows, double* out, const Formula& formula) {
   constexpr int kParts = 4;
-  constexpr Index kMostLanes = 8, kOnStack = 16;
-  const pack::Tag<double, 1> d;
-  Index row = fill(pack::Tag<double, kParts>(), 0, rows, out, formula);
+  constexpr Index kMostLanes = 16, kOnStack = 16;
+  using D = pack::Tag<Real, 1>;
+  const D d;
+  Index row = fill(pack::Tag<Real, kParts>(), 0, rows, out, formula);
   row = fill(d, row, rows, out, formula);
   if (row == rows.count) return;
   // A last vector, filled up with its last row.
@@ -122,13 +151,52 @@ void for_each_row(const Rows& rows, double* out, const Formula& formula) {
     const double* column = rows.first + row + k * rows.stride;
     for (Index lane = 0; lane < lanes; ++lane) padded[k * lanes + lane] = column[std::min(lane, left - 1)];
   }
-  using D = pack::Tag<double, 1>;
-  hn::StoreU(formula(d, Columns<D>(d, padded, lanes, rows.columns)), d, results);
+  hn::store(formula(d, Columns<D>(d, padded, lanes, rows.columns)), d, results);
   std::copy_n(results, left, out + row);
 }
 
 inline void leave_all(const Rows& rows, double* out) {
   std::fill_n(out, rows.count, std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The functions of a family in one precision. Formulas has, static:
+///   answers_log_pdf(c, columns), answers_conditional(c, columns)   whether the formulas hold
+///   log_pdf(d, c, columns), conditional(d, c, tail, columns), conditional_inverse(d, c, tail, columns)
+/// Single precision is for points of two coordinates: the coefficients of more leave its range.
+template <class Real, class Formulas, class Constants>
+constexpr KernelFunctions<Constants> functions_of() {
+  constexpr Index kMostColumns = sizeof(Real) == sizeof(float) ? 2 : std::numeric_limits<Index>::max();
+  return {.log_pdf =
+              [](const Constants& c, const Rows& rows, double* out) {
+                if (rows.columns > kMostColumns || !Formulas::answers_log_pdf(c, rows.columns))
+                  return leave_all(rows, out);
+                for_each_row<Real>(
+                    rows, out, [&](auto d, const auto& columns) HWY_ATTR { return Formulas::log_pdf(d, c, columns); });
+              },
+          .conditional =
+              [](const Constants& c, const Rows& rows, Tail tail, double* out) {
+                if (rows.columns > kMostColumns || !Formulas::answers_conditional(c, rows.columns))
+                  return leave_all(rows, out);
+                for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+                  return Formulas::conditional(d, c, tail, columns);
+                });
+              },
+          .conditional_inverse =
+              [](const Constants& c, const Rows& rows, Tail tail, double* out) {
+                if (rows.columns > kMostColumns || !Formulas::answers_conditional(c, rows.columns))
+                  return leave_all(rows, out);
+                for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+                  return Formulas::conditional_inverse(d, c, tail, columns);
+                });
+              }};
+}
+
+/// What one instruction set offers for a family.
+template <class Formulas, class Constants>
+const KernelTable<Constants>* table_of() {
+  static constexpr KernelTable<Constants> kTable = {.standard = functions_of<double, Formulas, Constants>(),
+                                                    .fast = functions_of<float, Formulas, Constants>()};
+  return &kTable;
 }
 
 }  // namespace sklar::simd::HWY_NAMESPACE::formulas

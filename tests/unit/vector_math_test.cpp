@@ -76,7 +76,7 @@ namespace {
 
 HWY_EXPORT(functions);
 
-constexpr double kBound = 1.5 * 0x1p-52, kFloatBound = 0x1p-21;
+constexpr double kBound = 1.5 * 0x1p-52, kFloatBound = 1.5 * 0x1p-23;
 
 long double exact(Function function, long double x) {
   switch (function) {
