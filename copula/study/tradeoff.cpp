@@ -16,7 +16,7 @@ constexpr double kShareOfHighest = 0.75;
 struct Evaluation {
   const char* name;
   Quantity quantity;
-  Column (Copula::*evaluate)(const PointsRef&) const;
+  Column (Copula::*evaluate)(const PointsRef&, Accuracy) const;
   ErrorMeasure measure;
 };
 
@@ -60,9 +60,9 @@ class Measurement {
         evaluation_(evaluation),
         reference_(subject.copula->exact(evaluation.quantity, subject.u, 2 * digits)) {}
 
-  void add_doubles(const char* level, const Copula& copula) {
+  void add_doubles(const char* level, const Copula& copula, Accuracy accuracy = Accuracy::standard) {
     Column values;
-    const double seconds = seconds_per_call([&] { values = (copula.*evaluation_.evaluate)(subject_.u); });
+    const double seconds = seconds_per_call([&] { values = (copula.*evaluation_.evaluate)(subject_.u, accuracy); });
     add(level, seconds, to_big(values));
   }
 
@@ -117,6 +117,7 @@ std::vector<TradeoffRow> measure_tradeoff(const FamilyInfo& family, const Tradeo
   std::vector<TradeoffRow> rows;
   for (const Evaluation& evaluation : kEvaluations) {
     Measurement measurement(subject, evaluation, options.digits);
+    measurement.add_doubles("fast", *subject.copula, Accuracy::fast);
     measurement.add_doubles("standard", *subject.copula);
     if (subject.formula) measurement.add_doubles("symbolic", *subject.formula);
     measurement.add_exact(options.digits);

@@ -16,9 +16,9 @@ struct TradeoffRow {
   std::string family;
   Theta theta;
   std::string quantity;  ///< "log_pdf", "h", "h_inv"
-  std::string level;  ///< "standard", "symbolic": the same from the text of psi alone, "exact": as many digits as asked
-  double ns;          ///< a row, in a batch of all rows on one thread; see seconds_per_call
-  ValueErrors errors;  ///< against twice the digits of the level "exact"; of log_pdf as a logarithm
+  std::string level;     ///< "fast", "standard": see Accuracy; "symbolic": standard from the text of psi alone; "exact"
+  double ns;             ///< a row, in a batch of all rows on one thread; see seconds_per_call
+  ValueErrors errors;    ///< against twice the digits of the level "exact"; of log_pdf as a logarithm
 };
 
 struct TradeoffOptions {

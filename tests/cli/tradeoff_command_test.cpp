@@ -36,7 +36,7 @@ TEST_F(Tradeoff, EveryLevelIsAsAccurateAsItSays) {
     EXPECT_EQ(row["theta"].size(), 1u);
     const std::string level = row["accuracy"];
     const double error = row["max_error"].get<double>();
-    EXPECT_LE(error, level == "exact" ? 1e-50 : 1e-13) << row;
+    EXPECT_LE(error, level == "exact" ? 1e-50 : level == "fast" ? 1e-5 : 1e-13) << row;
     EXPECT_GT(row["ns"].get<double>(), 0) << row;
     EXPECT_LE(row["median_error"].get<double>(), error) << row;
     standard += level == "standard";
