@@ -1,7 +1,7 @@
 /// Nanoseconds a row over the list of families on one thread: the library, the same from the formula of psi alone, and
 /// the baselines, one scalar exp and log of the C library and scalar textbook formulas. Names:
-/// log_pdf/frank/d=2/n=65536, with formula/ or textbook/ before them; fit/frank/d=2/n=100000; derive/frank/order=10.
-/// Run by tests/bench.sh.
+/// log_pdf/frank/d=2/n=65536, with fast/, formula/ or textbook/ before them; fit/frank/d=2/n=100000;
+/// derive/frank/order=10. Run by tests/bench.sh.
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
@@ -47,7 +47,7 @@ const Points& points(const FamilyInfo& family, int dim, Index rows) {
   return u;
 }
 
-using Evaluate = Column (Copula::*)(const PointsRef&) const;
+using Evaluate = Column (Copula::*)(const PointsRef&, Accuracy) const;
 
 struct Evaluation {
   const char* name;
@@ -63,10 +63,10 @@ struct Subject {
   int dim;
   Index rows;
 
-  void add(const std::string& prefix, const Evaluation& evaluation) const {
-    const auto measure = [*this, evaluate = evaluation.evaluate](benchmark::State& state) {
+  void add(const std::string& prefix, const Evaluation& evaluation, Accuracy accuracy = Accuracy::standard) const {
+    const auto measure = [*this, evaluate = evaluation.evaluate, accuracy](benchmark::State& state) {
       const Points& u = points(family, dim, rows);
-      for (auto _ : state) benchmark::DoNotOptimize(((*copula).*evaluate)(u).data());
+      for (auto _ : state) benchmark::DoNotOptimize(((*copula).*evaluate)(u, accuracy).data());
       state.SetItemsProcessed(state.iterations() * rows);
     };
     benchmark::RegisterBenchmark((prefix + evaluation.name + suffix(family, dim, rows)).c_str(), measure);
@@ -120,7 +120,7 @@ void add_textbook(const FamilyInfo& family, const char* quantity, const Scalar& 
   const Points& sample = points(family, 2, kRows);
   Column values(kRows);
   fill(sample, values);
-  require_agreement(name, values, ((*subject(family, 2, kRows).copula).*expected)(sample));
+  require_agreement(name, values, ((*subject(family, 2, kRows).copula).*expected)(sample, Accuracy::standard));
   const auto measure = [fill, &family](benchmark::State& state) {
     const Points& u = points(family, 2, kRows);
     Column out(kRows);
@@ -197,6 +197,7 @@ void add_family(const FamilyInfo& family) {
   for (const int dim : {2, 3}) subject(family, dim, kRows).add_all("");
   for (const int dim : {10, 100}) subject(family, dim, kRowsOfManyDimensions).add_all("");
   if (family.parameters.empty()) return;
+  for (const Evaluation& evaluation : kEvaluations) subject(family, 2, kRows).add("fast/", evaluation, Accuracy::fast);
   add_growth(family);
   add_fit(family);
   const FamilyInfo formula = symbolic::formula_of(family);
