@@ -72,6 +72,7 @@ class Archimedean final : public ArchimedeanCopula {
                                 ColumnOut out) const override {
     const bool started = start(u, reflection, [&](const Kernels& kernels) {
       kernels.conditional_inverse(Accuracy::standard, Rows(u), tail, out.data());
+      out = (out < 1).select(out, std::numeric_limits<double>::quiet_NaN());  // inside, unless 1 is the nearest double
     });
     for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;

@@ -89,6 +89,17 @@ TEST_P(TextbookPsi, ConditionalAndItsInverseAtExtremes) {
   }
 }
 
+TEST_P(TextbookPsi, InverseIsInsideWhereADoubleIs) {
+  for (const FamilyCase& next : cases({2, 3})) {
+    SCOPED_TRACE(next.name());
+    Points u = Points::Constant(6, next.dim, 0.5);
+    u.bottomRows(3).setConstant(1 - 0x1p-52);
+    for (Index i = 0; i < u.rows(); ++i) u(i, next.dim - 1) = std::array{0x1p-52, 0x1.8p-53, 1 - 0x1p-52}[i % 3];
+    const WorkingPrecision precision(kDigits);
+    expect_conditionals(*next.copula(), PsiReference(family(), next.theta), u);
+  }
+}
+
 TEST_P(TextbookPsi, SubnormalProbabilitiesAreTheNearestDoubles) {
   for (const FamilyCase& next : cases({2, 3})) {
     SCOPED_TRACE(next.name());
