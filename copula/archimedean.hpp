@@ -284,10 +284,29 @@ class Archimedean final : public ArchimedeanCopula {
   // log P(V_i <= v_i, of the reflected i V_i >= v_i), by inclusion and exclusion over these or between two bounds.
   template <class T>
   T log_box(std::span<const T> v, const Reflection& reflection) const {
+    using Real = decltype(T::value);
+    constexpr std::size_t kFew = 3;  // inclusion and exclusion cost less than the bounds
     std::vector<T> below, above;
     for (std::size_t k = 0; k < v.size(); ++k) {
       if (!is_zero(v[k])) (reflection[k] ? above : below).push_back(v[k]);
     }
+    for (const T& value : above) {  // P is at most each 1 - v_i, and unknown with it
+      const T rest = T(1) - value;
+      if (!(rest.value > rest.error)) return {Real(0), T::unknown()};
+    }
+    if (above.size() > kFew) {
+      const T between = log_box_between(below, above);
+      if (is_within(kLogTolerance, between)) return between;
+    }
+    const T log_sum = log(box_sum(below, above));
+    if (above.empty() || is_within(kLogTolerance, log_sum)) return log_sum;
+    const T between = log_box_between(below, above);
+    return between.error < log_sum.error ? between : log_sum;
+  }
+
+  // The terms of inclusion and exclusion: of all below and each subset of those above.
+  template <class T>
+  T box_sum(const std::vector<T>& below, const std::vector<T>& above) const {
     T sum(0);
     for (std::size_t subset = 0; subset < std::size_t{1} << above.size(); ++subset) {
       std::vector<T> corner = below;
@@ -298,10 +317,7 @@ class Archimedean final : public ArchimedeanCopula {
       const T value = corner.empty() ? T(1) : exp(log_distribution(std::span<const T>(corner)));
       sum += odd ? -value : value;
     }
-    const T log_sum = log(sum);
-    if (above.empty() || is_within(kLogTolerance, log_sum)) return log_sum;
-    const T between = log_box_between(below, above);
-    return between.error < log_sum.error ? between : log_sum;
+    return sum;
   }
 
   // Where those terms cancel, for m values above: the integral of |psi^(m)| over a box of sides e_i = psi^-1(v_i),

@@ -99,11 +99,11 @@ class MixtureReference {
   std::vector<double> weights_;
 };
 
-/// Coordinates from 1e-300 to the last doubles below 1.
-inline Points extreme_points(Index n, int dim, Rng& rng) {
-  constexpr std::array<double, 6> kValues = {1e-300, 1e-20, 1e-3, 0.5, 0.9, 1 - 1e-14};
+/// Coordinates from the smallest to the last doubles below 1.
+inline Points extreme_points(Index n, int dim, double smallest, Rng& rng) {
+  const std::array<double, 6> values = {smallest, 1e-20, 1e-3, 0.5, 0.9, 1 - 1e-14};
   Points u(n, dim);
-  for (Index i = 0; i < u.size(); ++i) u(i) = kValues[rng() % kValues.size()];
+  for (Index i = 0; i < u.size(); ++i) u(i) = values[rng() % values.size()];
   return u;
 }
 

@@ -103,7 +103,7 @@ TEST_P(Exact, OfRotationsAndMixtures) {
     const CopulaPtr a = std::make_shared<Rotated>(next.copula(), first),
                     b = std::make_shared<Rotated>(next.copula(), last);
     const RotatedReference of_a(family(), next.theta, first), of_b(family(), next.theta, last);
-    const Points u = extreme_points(3, next.dim, rng);
+    const Points u = extreme_points(3, next.dim, 1e-300, rng);
     expect_exact(*a, of_a, u);
     expect_exact(*b, of_b, u);
     const std::vector<double> weights = {0.25, 0.75};

@@ -16,22 +16,22 @@ std::vector<std::vector<bool>> reflections(int dim) {
   return {{false, true, false}, {true, false, true}, {true, true, true}};
 }
 
-/// visit(copula, reference, points) for each case and rotation.
+/// visit(copula, reference, points) for each case, by one rotation after another.
 template <class Visit>
-void for_each_rotation(const std::vector<FamilyCase>& cases, const Visit& visit) {
+void for_each_rotated(const std::vector<FamilyCase>& cases, const Visit& visit) {
   const WorkingPrecision precision(kCompositeDigits);
   Rng rng(seed_of_this_test());
+  std::size_t turn = 0;
   for (const FamilyCase& next : cases) {
-    for (const std::vector<bool>& reflected : reflections(next.dim)) {
-      SCOPED_TRACE(next.name() + testing::PrintToString(reflected));
-      visit(Rotated(next.copula(), reflected), RotatedReference(*next.family, next.theta, reflected),
-            extreme_points(2, next.dim, rng));
-    }
+    const std::vector<bool> reflected = reflections(next.dim)[turn++ % 3];
+    SCOPED_TRACE(next.name() + testing::PrintToString(reflected));
+    visit(Rotated(next.copula(), reflected), RotatedReference(*next.family, next.theta, reflected),
+          extreme_points(2, next.dim, next.dim == 2 ? 1e-300 : 1e-100, rng));
   }
 }
 
 TEST_P(RotatedFamily, LogDensityAndCdf) {
-  for_each_rotation(cases({2, 3}), [](const Copula& copula, const RotatedReference& reference, const Points& u) {
+  for_each_rotated(cases({2, 3}), [](const Copula& copula, const RotatedReference& reference, const Points& u) {
     const Column log_pdf = copula.log_pdf(u), log_cdf = copula.log_cdf(u);
     for (Index i = 0; i < u.rows(); ++i) {
       EXPECT_TRUE(logarithm_agrees(log_pdf(i), reference.log_density(row_of(u, i)))) << "log_pdf" << row_text(u, i);
@@ -44,7 +44,7 @@ TEST_P(RotatedFamily, LogDensityAndCdf) {
 }
 
 TEST_P(RotatedFamily, ConditionalAndItsInverse) {
-  for_each_rotation(cases({2, 3}), expect_conditionals<RotatedReference>);
+  for_each_rotated(cases({2, 3}), expect_conditionals<RotatedReference>);
 }
 
 void expect_identical(const Column& a, const Column& b) {
