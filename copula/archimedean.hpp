@@ -295,12 +295,12 @@ class Archimedean final : public ArchimedeanCopula {
       if (!(rest.value > rest.error)) return {Real(0), T::unknown()};
     }
     if (above.size() > kFew) {
-      const T between = log_box_between(below, above);
+      T between = log_box_between(below, above);
       if (is_within(kLogTolerance, between)) return between;
     }
-    const T log_sum = log(box_sum(below, above));
+    T log_sum = log(box_sum(below, above));
     if (above.empty() || is_within(kLogTolerance, log_sum)) return log_sum;
-    const T between = log_box_between(below, above);
+    T between = log_box_between(below, above);
     return between.error < log_sum.error ? between : log_sum;
   }
 

@@ -40,8 +40,8 @@ class Reflection {
 template <class T, class Number>
 [[nodiscard]] T reflected(const Number& u) {
   using Real = decltype(T::value);
-  const Real coordinate(u), rest = Real(1) - coordinate;
-  return {rest, Real(1) - rest == coordinate ? Real(0) : Real(T::operation() * rest)};  // 1 - rest is exact
+  const Real rest = Real(1) - Real(u);
+  return {rest, Real(1) - rest == Real(u) ? Real(0) : Real(T::operation() * rest)};  // 1 - rest is exact
 }
 
 }  // namespace sklar

@@ -48,7 +48,8 @@ class Bound {
     const Expression value = substitute(value_, symbol("d"), dim);
     const double nearest = evaluate(Tape({value}, {}), Points(1, 0)).values(0);
     if (!value.is_number()) return nearest;
-    const Rational exact = symbolic::value_of(value), found(nearest);
+    const Rational exact = symbolic::value_of(value);
+    const Rational found(nearest);  // NOLINT(clang-analyzer-core.*): false alarm inside Boost.Rational
     const bool outside = inwards > nearest ? found < exact : found > exact;
     return outside ? std::nextafter(nearest, inwards) : nearest;
   }

@@ -45,9 +45,9 @@ class SymbolicGenerator {
 
   template <class T>
   [[nodiscard]] T log_psi(const T& t) const {
-    const T direct = log_abs_dpsi(0, t);
+    T direct = log_abs_dpsi(0, t);
     if (!use_near_zero_ || direct < T(-0.5)) return direct;
-    const T near = run(*formula_->log_psi_near_zero(), prepared<T>().log_psi_near_zero, t);
+    T near = run(*formula_->log_psi_near_zero(), prepared<T>().log_psi_near_zero, t);
     return near.error < direct.error ? near : direct;
   }
 
@@ -55,9 +55,9 @@ class SymbolicGenerator {
   [[nodiscard]] T psi_inv(const T& u) const {
     if (inverse_ == Inverse::numeric) return solve(u);
     const bool near_one = use_near_one_ && u > T(0.5);
-    const T first = inverse_at(u, near_one);
+    T first = inverse_at(u, near_one);
     if (!use_near_one_ || first.error <= kGoodEnough * abs(first).value) return first;
-    const T second = inverse_at(u, !near_one);
+    T second = inverse_at(u, !near_one);
     return second.error < first.error ? second : first;
   }
 
