@@ -31,7 +31,7 @@ struct DimensionShare {
   int share;
 };
 constexpr DimensionShare kDimensions[] = {{2, 400}, {3, 200}, {4, 100}, {5, 100}, {6, 50},  {8, 50},
-                                          {10, 50}, {20, 20}, {50, 10}, {75, 6},  {100, 8}, {200, 6}};
+                                          {10, 50}, {20, 20}, {50, 12}, {75, 10}, {100, 6}, {200, 2}};
 
 Digits larger(const Digits& a, const Digits& b) {
   return a > b ? a : b;
