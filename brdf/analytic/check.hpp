@@ -4,10 +4,14 @@
 #include <string_view>
 
 #include "brdf/brdf.hpp"
+#include "copula/family.hpp"
 
 namespace sklar::brdf {
 
-/// @throws std::domain_error naming model, argument and value unless each channel is in [0,1].
-void require_unit_rgb(std::string_view model, std::string_view argument, const Rgb& value);
+/// @throws std::domain_error naming model, argument, interval and value unless the value is inside.
+void require_inside(std::string_view model, std::string_view argument, const Interval& interval, double value);
+
+/// The same for each channel.
+void require_inside(std::string_view model, std::string_view argument, const Interval& interval, const Rgb& value);
 
 }  // namespace sklar::brdf
