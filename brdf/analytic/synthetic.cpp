@@ -5,6 +5,7 @@
 
 #include "brdf/analytic/ggx.hpp"
 #include "brdf/analytic/lambert.hpp"
+#include "brdf/analytic/sum.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "copula/random.hpp"
 
@@ -34,6 +35,32 @@ MeasuredTable builtin_material() {
     }
   }
   table.report.mirror_asymmetry = mirror_asymmetry(table);
+  return table;
+}
+
+BrdfPtr brushed_metal() {
+  const Rgb f0(0.80, 0.65, 0.42);
+  return with_diffuse({0.05, 0.04, 0.03}, std::make_shared<const Ggx>(f0, 0.12, 0.40), f0);
+}
+
+AnisotropicTable builtin_anisotropic_material(const AnisotropicSynthetic& options) {
+  constexpr const char* kFunction = "builtin_anisotropic_material";
+  require_inside(kFunction, "scatter", {0, 1}, options.scatter);
+  require_inside(kFunction, "masked_share", {.lowest = 0, .highest = 1, .highest_included = false},
+                 options.masked_share);
+  AnisotropicTable table =
+      tabulate_anisotropic(*brushed_metal(), kAnisotropicSynthetic, Provenance::synthetic, options.grid);
+  Rng rng(options.seed);
+  for (std::size_t cell = 0; cell < table.valid.size(); ++cell) {
+    if (!table.valid[cell]) continue;
+    const bool masked = options.masked_share > 0 && uniform(rng) < options.masked_share;
+    table.valid[cell] = masked ? 0 : 1;
+    for (std::vector<float>& plane : table.values) {
+      const double factor = std::exp(options.scatter * standard_normal(rng));
+      plane[cell] = masked ? 0.0F : static_cast<float>(static_cast<double>(plane[cell]) * factor);
+    }
+  }
+  table.report.isotropy_deviation = isotropy_deviation(table);
   return table;
 }
 

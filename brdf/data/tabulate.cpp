@@ -34,4 +34,30 @@ MeasuredTable tabulate(const Brdf& model, std::string name, Provenance provenanc
   return table;
 }
 
+AnisotropicTable tabulate_anisotropic(const Brdf& model, std::string name, Provenance provenance,
+                                      const AnisotropicGrid& grid) {
+  if (!model.traits().reciprocal) throw std::invalid_argument("tabulate_anisotropic: the model must be reciprocal");
+  grid.require("tabulate_anisotropic");
+  AnisotropicTable table{std::move(name), provenance, grid, {}, {}, {}};
+  table.valid.assign(grid.stored_cells(), 0);
+  for (std::vector<float>& plane : table.values) plane.assign(grid.stored_cells(), 0.0F);
+  tbb::parallel_for(0, grid.theta_h * grid.stored_phi_h(), [&](int row) {
+    const int i = row / grid.stored_phi_h();
+    const int m = row % grid.stored_phi_h();
+    for (int j = 0; j < grid.theta_d; ++j) {
+      for (int k = 0; k < grid.phi_d; ++k) {
+        const DirectionPair pair = directions4(grid.centre(i, m, j, k));
+        if (!(pair.wi.z() > 0 && pair.wo.z() > 0)) continue;
+        const std::size_t cell = grid.index(i, m, j, k);
+        const Rgb value = model.eval(pair.wo, pair.wi);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          table.values[channel][cell] = static_cast<float>(value[static_cast<int>(channel)]);
+        }
+        table.valid[cell] = 1;
+      }
+    }
+  });
+  return table;
+}
+
 }  // namespace sklar::brdf

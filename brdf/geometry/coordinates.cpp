@@ -35,4 +35,21 @@ DirectionPair directions(const HalfDifference& coordinates) {
   return {.wi = rotate_about_y(wi, coordinates.theta_h), .wo = rotate_about_y(wo, coordinates.theta_h)};
 }
 
+HalfDifference4 half_difference4(const Vec3& wo, const Vec3& wi) {
+  const auto [theta_h, theta_d, phi_d] = half_difference(wo, wi);
+  const Vec3 sum = wi + wo;
+  const double phi = sum.x() == 0 && sum.y() == 0 ? 0.0 : std::atan2(sum.y(), sum.x());
+  const double turned = phi < 0 ? phi + 2 * std::numbers::pi : phi;
+  return {
+      .theta_h = theta_h, .phi_h = turned < 2 * std::numbers::pi ? turned : 0.0, .theta_d = theta_d, .phi_d = phi_d};
+}
+
+DirectionPair directions4(const HalfDifference4& coordinates) {
+  const DirectionPair pair = directions(HalfDifference{coordinates.theta_h, coordinates.theta_d, coordinates.phi_d});
+  const double c = std::cos(coordinates.phi_h);
+  const double s = std::sin(coordinates.phi_h);
+  const auto turn = [&](const Vec3& w) { return Vec3(c * w.x() - s * w.y(), s * w.x() + c * w.y(), w.z()); };
+  return {.wi = turn(pair.wi), .wo = turn(pair.wo)};
+}
+
 }  // namespace sklar::brdf

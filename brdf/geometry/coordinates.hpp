@@ -20,6 +20,14 @@ struct HalfDifference {
   double phi_d;    ///< [0,pi)
 };
 
+/// All four coordinates, of a reflectance that depends on phi_h.
+struct HalfDifference4 {
+  double theta_h;  ///< [0,pi/2] for directions above the horizon
+  double phi_h;    ///< [0,2 pi)
+  double theta_d;  ///< [0,pi/2]
+  double phi_d;    ///< [0,pi)
+};
+
 struct DirectionPair {
   Vec3 wi;
   Vec3 wo;
@@ -34,5 +42,11 @@ struct DirectionPair {
 /// The pair at these coordinates with phi_h = 0; wi is the direction at phi_d, wo the one at phi_d + pi. Either may lie
 /// below the horizon: cos_i = cos th cos td - sin th sin td cos pd, cos_o the same with +.
 [[nodiscard]] DirectionPair directions(const HalfDifference& coordinates);
+
+/// The four coordinates, as half_difference gives three of them; phi_h is 0 where h = z.
+[[nodiscard]] HalfDifference4 half_difference4(const Vec3& wo, const Vec3& wi);
+
+/// The pair at these coordinates, as for three of them, turned by phi_h.
+[[nodiscard]] DirectionPair directions4(const HalfDifference4& coordinates);
 
 }  // namespace sklar::brdf

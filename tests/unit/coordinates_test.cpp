@@ -96,6 +96,26 @@ TEST(Coordinates, KnownPairs) {
   EXPECT_NEAR(tiny.theta_d / 2e-9, 1, 1e-12);
 }
 
+TEST(Coordinates, FourOfThem) {
+  Rng rng(9);
+  for (int n = 0; n < 20000; ++n) {
+    const HalfDifference4 c{1.5 * uniform(rng), 2 * kPi * uniform(rng), 1.5 * uniform(rng), kPi * uniform(rng)};
+    const DirectionPair pair = directions4(c);
+    const HalfDifference4 back = half_difference4(pair.wo, pair.wi);
+    const double tolerance = 10 * kRounding / (std::cos(c.theta_d) * std::sin(c.theta_h) * std::sin(c.theta_d));
+    ASSERT_NEAR(back.theta_h, c.theta_h, tolerance);
+    ASSERT_NEAR(std::sin((back.phi_h - c.phi_h) / 2), 0, tolerance);
+    ASSERT_NEAR(back.theta_d, c.theta_d, tolerance);
+    ASSERT_NEAR(std::sin(back.phi_d - c.phi_d), 0, tolerance);
+    ASSERT_TRUE(back.phi_h >= 0 && back.phi_h < 2 * kPi);
+    const HalfDifference4 swapped = half_difference4(pair.wi, pair.wo);
+    ASSERT_EQ(swapped.phi_h, back.phi_h);
+    ASSERT_EQ(swapped.phi_d, back.phi_d);
+  }
+  EXPECT_EQ(half_difference4(Vec3::UnitZ(), Vec3::UnitZ()).phi_h, 0);
+  EXPECT_NEAR(half_difference4(Vec3(0, -0.6, 0.8), Vec3(0, -0.6, 0.8)).phi_h, 1.5 * kPi, 4 * kRounding);
+}
+
 TEST(Frame, OrthonormalAndInverse) {
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0.6, -0.48, -0.64)}) {
     const Frame frame(normal);

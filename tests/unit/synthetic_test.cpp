@@ -58,5 +58,50 @@ TEST(Synthetic, IsAPlausibleMeasurement) {
   }
 }
 
+TEST(Synthetic, AnisotropicMaterialIsBrushedMetal) {
+  const AnisotropicTable table = builtin_anisotropic_material();
+  EXPECT_EQ(table.name, kAnisotropicSynthetic);
+  EXPECT_EQ(table.provenance, Provenance::synthetic);
+  EXPECT_NO_THROW(require_table("test", table));
+  EXPECT_GT(table.report.isotropy_deviation, 0.5);
+  EXPECT_TRUE(builtin_anisotropic_material().values[1] == table.values[1]);
+  const BrdfPtr metal = brushed_metal();
+  for (const auto& [theta, phi] : {std::pair(0.0, 0.0), {0.8, 0.3}, {1.3, 1.5}, {1.5, 0.0}}) {
+    const Vec3 wo = spherical_direction(theta, phi);
+    Rng rng(7);
+    constexpr int kDraws = 20000;
+    Rgb sum = Rgb::Zero();
+    for (int n = 0; n < kDraws; ++n) {
+      const double first = uniform(rng);
+      sum += metal->sample(wo, {first, uniform(rng)}).weight;
+    }
+    EXPECT_TRUE((sum / kDraws < 1).all() && (sum / kDraws > 0.1).all()) << theta << ": " << sum.transpose() / kDraws;
+  }
+}
+
+TEST(Synthetic, ScatterAndMaskAreAsAskedFor) {
+  AnisotropicSynthetic options{.scatter = 0, .grid = {.theta_h = 20, .phi_h = 24, .theta_d = 10, .phi_d = 8}};
+  const AnisotropicTable plain = builtin_anisotropic_material(options);
+  options.scatter = 0.1;
+  options.masked_share = 0.25;
+  const AnisotropicTable rough = builtin_anisotropic_material(options);
+  options.seed = 2;
+  EXPECT_FALSE(builtin_anisotropic_material(options).values[0] == rough.values[0]);
+  EXPECT_NEAR(static_cast<double>(rough.valid_cells()) / static_cast<double>(plain.valid_cells()), 0.75, 0.01);
+  double square = 0;
+  for (std::size_t cell = 0; cell < plain.valid.size(); ++cell) {
+    if (!rough.valid[cell]) {
+      ASSERT_EQ(rough.values[0][cell], 0);
+      continue;
+    }
+    const double ratio =
+        std::log(static_cast<double>(rough.values[0][cell]) / static_cast<double>(plain.values[0][cell]));
+    square += ratio * ratio;
+  }
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(rough.valid_cells())), 0.1, 0.003);
+  options.masked_share = 1;
+  EXPECT_THROW((void)builtin_anisotropic_material(options), std::domain_error);
+}
+
 }  // namespace
 }  // namespace sklar::brdf
