@@ -11,7 +11,7 @@ BilinearStack::BilinearStack(int images, int rows, int columns, std::span<const 
   }
 }
 
-double BilinearStack::at(const Vec2& position, const Between& image) const {
+double BilinearStack::at(const Vec2& position, const ImageBlend& image) const {
   const Between x = between_clamped(position.x() * (columns_ - 1), columns_);
   const Between y = between_clamped(position.y() * (rows_ - 1), rows_);
   const auto within = [&](int n) {
@@ -19,7 +19,7 @@ double BilinearStack::at(const Vec2& position, const Between& image) const {
     const double* high = values_.data() + (static_cast<std::ptrdiff_t>(n) * rows_ + y.high) * columns_;
     return mix(mix(low[x.low], low[x.high], x.share), mix(high[x.low], high[x.high], x.share), y.share);
   };
-  return mix(within(image.low), within(image.high), image.share);
+  return mix(image, within);
 }
 
 BilinearWarp::BilinearWarp(int images, int rows, int columns, std::span<const float> density)
@@ -53,14 +53,14 @@ BilinearWarp::BilinearWarp(int images, int rows, int columns, std::span<const fl
   }
 }
 
-double BilinearWarp::mixed(const std::vector<double>& table, const Between& image, int row, int column) const {
+double BilinearWarp::mixed(const std::vector<double>& table, const ImageBlend& image, int row, int column) const {
   const auto at = [&](int n) {
     return table[(static_cast<std::size_t>(n) * rows_ + static_cast<std::size_t>(row)) * columns_ + column];
   };
-  return mix(at(image.low), at(image.high), image.share);
+  return mix(image, at);
 }
 
-Vec2 BilinearWarp::invert(const Vec2& position, const Between& image) const {
+Vec2 BilinearWarp::invert(const Vec2& position, const ImageBlend& image) const {
   const Between x = between_clamped(position.x() * (columns_ - 1), columns_);
   const Between y = between_clamped(position.y() * (rows_ - 1), rows_);
   const auto over_rows = [&](const std::vector<double>& table, int column) {
@@ -74,8 +74,7 @@ Vec2 BilinearWarp::invert(const Vec2& position, const Between& image) const {
   const double whole = over_rows(row_mass_, columns_ - 1);
   const double low = mixed(row_mass_, image, y.low, columns_ - 1);
   const double high = mixed(row_mass_, image, y.high, columns_ - 1);
-  const double below =
-      mix(mass(image.low), mass(image.high), image.share) + y.share * (low + 0.5 * y.share * (high - low));
+  const double below = mix(image, mass) + y.share * (low + 0.5 * y.share * (high - low));
   return {whole > 0 ? part / whole : position.x(), below};
 }
 

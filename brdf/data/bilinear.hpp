@@ -16,8 +16,10 @@ class BilinearStack {
   /// @param values images * rows * columns, row-major; rows and columns >= 2.
   BilinearStack(int images, int rows, int columns, std::span<const float> values);
 
-  /// @param position in the unit square, clamped to it. @param image in [0, images).
-  [[nodiscard]] double at(const Vec2& position, const Between& image) const;
+  /// @param position in the unit square, clamped to it. @param image within [0, images).
+  [[nodiscard]] double at(const Vec2& position, const ImageBlend& image) const;
+
+  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(double); }
 
  private:
   int rows_, columns_;
@@ -35,10 +37,14 @@ class BilinearWarp {
 
   /// @param position in the unit square, clamped to it. @return s in the unit square; where the rows hold no mass s.x
   /// is position.x.
-  [[nodiscard]] Vec2 invert(const Vec2& position, const Between& image) const;
+  [[nodiscard]] Vec2 invert(const Vec2& position, const ImageBlend& image) const;
+
+  [[nodiscard]] std::size_t bytes() const {
+    return (density_.size() + row_mass_.size() + mass_.size()) * sizeof(double);
+  }
 
  private:
-  [[nodiscard]] double mixed(const std::vector<double>& table, const Between& image, int row, int column) const;
+  [[nodiscard]] double mixed(const std::vector<double>& table, const ImageBlend& image, int row, int column) const;
 
   int rows_, columns_;
   std::vector<double> density_;   ///< images * rows * columns

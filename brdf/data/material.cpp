@@ -1,8 +1,12 @@
 #include "brdf/data/material.hpp"
 
+#include <array>
+#include <cstdio>
+
+#include "brdf/data/isotropy.hpp"
 #include "brdf/data/merl.hpp"
 #include "brdf/data/rgl.hpp"
-#include "copula/error.hpp"
+#include "brdf/data/table_brdf.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -14,17 +18,72 @@ std::string material_name(const std::filesystem::path& path) {
   return name;
 }
 
-}  // namespace
+/// An RGL file, and whether its material is.
+struct RglFile {
+  std::shared_ptr<const RglMaterial> material;
+  double isotropy_deviation;
 
-MeasuredTable load_material(const std::filesystem::path& path, Provenance binary_provenance) {
-  const std::string extension = path.extension().string();
-  if (extension == ".bsdf") return resample(RglMaterial(path), material_name(path));
-  if (extension != ".binary") {
-    throw FileError(path.string(), "has extension '" + extension + "', expected .binary (MERL) or .bsdf (RGL)");
+  explicit RglFile(const std::filesystem::path& path)
+      : material(std::make_shared<const RglMaterial>(path)),
+        isotropy_deviation(material->isotropic() ? 0.0 : brdf::isotropy_deviation(RglBrdf(material))) {}
+
+  [[nodiscard]] bool isotropic() const { return isotropy_deviation <= kSymmetricDeviation; }
+
+  /// Precondition: isotropic().
+  [[nodiscard]] MeasuredTable table(const std::string& name) const {
+    if (material->isotropic()) return resample(*material, name);
+    MeasuredTable mean = isotropic_mean(RglBrdf(material), name, Provenance::measured);
+    mean.report.negative_share = material->negative_share();
+    mean.report.median_asymmetry = median_asymmetry(*material);
+    return mean;
   }
-  MeasuredTable table = read_merl(path, binary_provenance);
+};
+
+bool is_rgl(const std::filesystem::path& path) {
+  return path.extension() == ".bsdf";
+}
+
+MeasuredTable read_binary(const std::filesystem::path& path, Provenance provenance) {
+  if (path.extension() != ".binary") {
+    throw FileError(path.string(),
+                    "has extension '" + path.extension().string() + "', expected .binary (MERL) or .bsdf (RGL)");
+  }
+  MeasuredTable table = read_merl(path, provenance);
   table.name = material_name(path);
   return table;
+}
+
+}  // namespace
+
+Material read_material(const std::filesystem::path& path, Provenance binary_provenance) {
+  if (!is_rgl(path)) return read_binary(path, binary_provenance);
+  const RglFile file(path);
+  if (file.isotropic()) return file.table(material_name(path));
+  return resample_anisotropic(file.material, material_name(path));
+}
+
+MeasuredTable load_material(const std::filesystem::path& path, Provenance binary_provenance) {
+  if (!is_rgl(path)) return read_binary(path, binary_provenance);
+  const RglFile file(path);
+  if (file.isotropic()) return file.table(material_name(path));
+  throw anisotropic_error(path.string(), file.isotropy_deviation);
+}
+
+BrdfPtr read_material_brdf(const std::filesystem::path& path) {
+  if (is_rgl(path)) {
+    const RglFile file(path);
+    if (!file.isotropic()) return std::make_shared<const RglBrdf>(file.material);
+    return std::make_shared<const TableBrdf>(std::make_shared<const MeasuredTable>(file.table(material_name(path))));
+  }
+  return std::make_shared<const TableBrdf>(
+      std::make_shared<const MeasuredTable>(read_binary(path, Provenance::unknown)));
+}
+
+FileError anisotropic_error(std::string_view path, double isotropy_deviation) {
+  std::array<char, 16> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.2f", isotropy_deviation);
+  return {path,
+          "is anisotropic (isotropy deviation " + std::string(digits.data()) + "); this needs an isotropic material"};
 }
 
 }  // namespace sklar::brdf

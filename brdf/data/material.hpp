@@ -2,15 +2,32 @@
 /// Material files, whatever their format.
 
 #include <filesystem>
+#include <variant>
 
-#include "brdf/data/measured_table.hpp"
+#include "brdf/data/anisotropic_table.hpp"
+#include "copula/error.hpp"
 
 namespace sklar::brdf {
 
-/// Reads a material file by its extension: `.binary` (MERL) or `.bsdf` (RGL). name is the file stem without `_rgb`.
+/// A material on three coordinates where it is isotropic, on four where not.
+using Material = std::variant<MeasuredTable, AnisotropicTable>;
+
+/// Reads a material file by its extension: `.binary` (MERL) or `.bsdf` (RGL). name is the file stem without `_rgb`. An
+/// anisotropic file of an isotropic material (isotropy_deviation at most kSymmetricDeviation) gives its isotropic_mean.
 /// @param binary_provenance what the caller knows of a `.binary`, whose format does not say; `.bsdf` is measured.
 /// @throws FileError for another extension, and as read_merl and RglMaterial do.
+[[nodiscard]] Material read_material(const std::filesystem::path& path,
+                                     Provenance binary_provenance = Provenance::unknown);
+
+/// The same, of isotropic materials. @throws FileError also for an anisotropic one, with its isotropy_deviation.
 [[nodiscard]] MeasuredTable load_material(const std::filesystem::path& path,
                                           Provenance binary_provenance = Provenance::unknown);
+
+/// The material as a reflectance: an isotropic one by TableBrdf from its table, an anisotropic `.bsdf` read directly.
+/// @throws as read_material.
+[[nodiscard]] BrdfPtr read_material_brdf(const std::filesystem::path& path);
+
+/// "PATH: is anisotropic (isotropy deviation 0.34); this needs an isotropic material".
+[[nodiscard]] FileError anisotropic_error(std::string_view path, double isotropy_deviation);
 
 }  // namespace sklar::brdf

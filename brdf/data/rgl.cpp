@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "brdf/geometry/frame.hpp"
+#include "copula/error.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -33,64 +34,92 @@ void require_at_least(const TensorFile& file, const std::string& name, const Flo
   if (found < lowest) file.fail("field '" + name + "' holds " + std::to_string(found) + ", expected " + expected);
 }
 
-/// `ndf` or `sigma`: two equal rows over phi, columns over theta.
-BilinearStack read_profile(const TensorFile& file, const std::string& name, float lowest, const char* expected) {
+/// `ndf` or `sigma`: rows over phi, two equal ones if isotropic; columns over theta.
+BilinearStack read_profile(const TensorFile& file, const std::string& name, bool isotropic, float lowest,
+                           const char* expected) {
   const FloatTensor tensor = file.floats(name, 2);
-  if (tensor.shape[0] != 2 || tensor.shape[1] < 2) {
-    file.fail("field '" + name + "' has shape " + text(tensor.shape) + ", expected 2 x (2 or more)");
+  if ((isotropic ? tensor.shape[0] != 2 : tensor.shape[0] < 2) || tensor.shape[1] < 2) {
+    file.fail("field '" + name + "' has shape " + text(tensor.shape) + ", expected " +
+              (isotropic ? "2" : "(2 or more)") + " x (2 or more)");
   }
   require_at_least(file, name, tensor, lowest, expected);
-  return {1, 2, static_cast<int>(tensor.shape[1]), tensor.values};
+  return {1, static_cast<int>(tensor.shape[0]), static_cast<int>(tensor.shape[1]), tensor.values};
 }
 
-/// Slices at the first phi_i of a field of shape (P, T, extra..., rows, columns).
+/// Slices of a field of shape (P, T, extra..., rows, columns): those of every phi_i, or the first one's if isotropic.
 struct Slices {
   int images, rows, columns;
   FloatTensor tensor;
-  [[nodiscard]] std::span<const float> first() const {
+  [[nodiscard]] std::span<const float> values() const {
     return std::span(tensor.values).first(static_cast<std::size_t>(images) * rows * columns);
   }
 };
 
-Slices read_slices(const TensorFile& file, const std::string& name, std::vector<std::size_t> leading) {
+Slices read_slices(const TensorFile& file, const std::string& name, bool isotropic, std::vector<std::size_t> leading) {
   FloatTensor tensor = file.floats(name, leading.size() + 2);
   const std::size_t rows = tensor.shape[leading.size()];
   const std::size_t columns = tensor.shape[leading.size() + 1];
-  std::size_t images = 1;
+  std::size_t images = isotropic ? 1 : leading[0];
   for (std::size_t n = 1; n < leading.size(); ++n) images *= leading[n];
   leading.insert(leading.end(), {std::max<std::size_t>(rows, 2), std::max<std::size_t>(columns, 2)});
   require_shape(file, name, tensor, leading);
   return {static_cast<int>(images), static_cast<int>(rows), static_cast<int>(columns), std::move(tensor)};
 }
 
-/// Ascending angles in [0,pi/2]; refuses anisotropic files first, since their shapes differ.
-std::vector<double> read_theta_i(const TensorFile& file) {
-  const std::size_t azimuths = file.floats("phi_i", 1).shape[0];
-  if (azimuths > 2) {
-    file.fail("is anisotropic (" + std::to_string(azimuths) + " values of phi_i); only isotropic files are read");
+std::vector<double> read_ascending(const TensorFile& file, const std::string& name, const char* expected) {
+  const FloatTensor tensor = file.floats(name, 1);
+  std::vector<double> angles(tensor.values.begin(), tensor.values.end());
+  if (std::adjacent_find(angles.begin(), angles.end(), std::greater_equal<>()) != angles.end()) {
+    file.fail("field '" + name + "' must ascend" + expected);
   }
+  return angles;
+}
+
+/// Empty if isotropic.
+std::vector<double> read_phi_i(const TensorFile& file) {
+  if (file.floats("phi_i", 1).shape[0] <= 2) return {};
+  std::vector<double> phi_i = read_ascending(file, "phi_i", "");
+  if (phi_i.back() - phi_i.front() > 2 * kPi + kFloatRounding) file.fail("field 'phi_i' spans more than a turn");
+  return phi_i;
+}
+
+int read_folds(const TensorFile& file, const std::vector<double>& phi_i) {
+  if (phi_i.empty()) return 1;
+  const double folds = std::round(2 * kPi / (phi_i.back() - phi_i.front()));
+  if (folds != 1 && folds != 2 && folds != 4) {
+    file.fail("field 'phi_i' spans " + sklar::to_text((phi_i.back() - phi_i.front()) / kPi) +
+              " pi, expected about 2, 1 or 0.5");
+  }
+  if (folds == 4 && std::abs(std::remainder(phi_i.front(), kPi / 2)) > kFloatRounding) {
+    file.fail("field 'phi_i' spans a quarter of a turn and begins at " + sklar::to_text(phi_i.front() / kPi) +
+              " pi, expected a multiple of 0.5");
+  }
+  return static_cast<int>(folds);
+}
+
+/// In [0,pi/2].
+std::vector<double> read_theta_i(const TensorFile& file) {
   if (!file.has("rgb") && file.has("wavelengths")) {
     file.fail("holds spectra and no field 'rgb'; only RGB files are read");
   }
-  const FloatTensor tensor = file.floats("theta_i", 1);
-  std::vector<double> theta_i(tensor.values.begin(), tensor.values.end());
-  const bool ascending = std::adjacent_find(theta_i.begin(), theta_i.end(), std::greater_equal<>()) == theta_i.end();
-  if (!ascending || theta_i.front() < 0 || theta_i.back() > kPi / 2 + kFloatRounding) {
-    file.fail("field 'theta_i' must ascend within [0, pi/2]");
+  constexpr const char* kWithin = " within [0, pi/2]";
+  std::vector<double> theta_i = read_ascending(file, "theta_i", kWithin);
+  if (theta_i.front() < 0 || theta_i.back() > kPi / 2 + kFloatRounding) {
+    file.fail(std::string("field 'theta_i' must ascend") + kWithin);
   }
   return theta_i;
 }
 
-BilinearStack read_rgb(const TensorFile& file, std::size_t azimuths, std::size_t slices) {
-  const Slices rgb = read_slices(file, "rgb", {azimuths, slices, 3});
-  return {rgb.images, rgb.rows, rgb.columns, rgb.first()};
+BilinearStack read_rgb(const TensorFile& file, bool isotropic, std::size_t slices) {
+  const Slices rgb = read_slices(file, "rgb", isotropic, {file.floats("phi_i", 1).shape[0], slices, 3});
+  return {rgb.images, rgb.rows, rgb.columns, rgb.values()};
 }
 
-BilinearWarp read_warp(const TensorFile& file, std::size_t azimuths, std::size_t slices) {
-  const Slices vndf = read_slices(file, "vndf", {azimuths, slices});
+BilinearWarp read_warp(const TensorFile& file, bool isotropic, std::size_t slices) {
+  const Slices vndf = read_slices(file, "vndf", isotropic, {file.floats("phi_i", 1).shape[0], slices});
   require_at_least(file, "vndf", vndf.tensor, 0, "0 or more");
   try {
-    return {vndf.images, vndf.rows, vndf.columns, vndf.first()};
+    return {vndf.images, vndf.rows, vndf.columns, vndf.values()};
   } catch (const std::invalid_argument&) {
     file.fail("field 'vndf' has a slice without mass");
   }
@@ -103,6 +132,11 @@ double share_below_zero(const std::vector<float>& values) {
 
 double theta_to_unit(double theta) {
   return std::sqrt(2 * theta / kPi);
+}
+
+double phi_to_unit(double phi) {
+  const double turns = phi / (2 * kPi) + 0.5;
+  return turns - std::floor(turns);
 }
 
 Between between_angles(const std::vector<double>& nodes, double angle) {
@@ -121,30 +155,77 @@ Between between_angles(const std::vector<double>& nodes, double angle) {
 RglMaterial::RglMaterial(const std::filesystem::path& path) : RglMaterial(TensorFile(path)) {}
 
 RglMaterial::RglMaterial(const TensorFile& file)
-    : theta_i_(read_theta_i(file)),
+    : phi_i_(read_phi_i(file)),
+      folds_(read_folds(file, phi_i_)),
+      theta_i_(read_theta_i(file)),
       jacobian_(file.byte("jacobian") != 0),
       negative_share_(share_below_zero(file.floats("rgb", 5).values)),
-      ndf_(read_profile(file, "ndf", 0.0F, "0 or more")),
-      sigma_(read_profile(file, "sigma", std::numeric_limits<float>::min(), "more than 0")),
-      rgb_(read_rgb(file, file.floats("phi_i", 1).shape[0], theta_i_.size())),
-      vndf_(read_warp(file, file.floats("phi_i", 1).shape[0], theta_i_.size())) {}
+      ndf_(read_profile(file, "ndf", isotropic(), 0.0F, "0 or more")),
+      sigma_(read_profile(file, "sigma", isotropic(), std::numeric_limits<float>::min(), "more than 0")),
+      rgb_(read_rgb(file, isotropic(), theta_i_.size())),
+      vndf_(read_warp(file, isotropic(), theta_i_.size())) {}
 
 Rgb RglMaterial::f_cos(const Vec3& wo, const Vec3& wi) const {
+  return isotropic() ? f_cos_isotropic(wo, wi) : f_cos_anisotropic(wo, wi);
+}
+
+Rgb RglMaterial::f_one_way(const Vec3& wo, const Vec3& wi) const {
+  static const double kCosineFloor = std::cos(87.5 * kPi / 180);
+  return (f_cos(wo, wi) / std::max(wo.z(), kCosineFloor)).max(0.0);
+}
+
+Rgb RglMaterial::value(const Vec2& u_half, const Vec2& u_wi, const ImageBlend& slice) const {
+  const Vec2 s = vndf_.invert(u_half, slice);
+  const auto& [low, high, share] = slice.within;
+  Rgb result;
+  for (int channel = 0; channel < 3; ++channel) {
+    result[channel] = rgb_.at(s, {{3 * low + channel, 3 * high + channel, share}, 3 * slice.step, slice.share});
+  }
+  if (!jacobian_) return result;
+  constexpr ImageBlend kOnly{{0, 0, 0}};
+  return result * (ndf_.at(u_half, kOnly) / (4 * sigma_.at(u_wi, kOnly)));
+}
+
+Rgb RglMaterial::f_cos_isotropic(const Vec3& wo, const Vec3& wi) const {
   const Vec3 half = wi + wo;
   const double theta_i = polar_angle(wi);
   const double phi = std::atan2(half.y(), half.x()) - std::atan2(wi.y(), wi.x());
-  const double turns = phi / (2 * kPi) + 0.5;
-  const Vec2 u_half(theta_to_unit(polar_angle(half)), turns - std::floor(turns));
+  return value({theta_to_unit(polar_angle(half)), phi_to_unit(phi)}, {theta_to_unit(theta_i), 0.5},
+               {between_angles(theta_i_, theta_i)});
+}
 
-  const Between slice = between_angles(theta_i_, theta_i);
-  const Vec2 s = vndf_.invert(u_half, slice);
-  Rgb value;
-  for (int channel = 0; channel < 3; ++channel) {
-    value[channel] = rgb_.at(s, {3 * slice.low + channel, 3 * slice.high + channel, slice.share});
+Rgb RglMaterial::f_cos_anisotropic(Vec3 wo, Vec3 wi) const {
+  const auto flip = [&](bool x, bool y) {
+    for (Vec3* w : {&wi, &wo}) *w = {x ? -w->x() : w->x(), y ? -w->y() : w->y(), w->z()};
+  };
+  if (folds_ == 2) {
+    const bool other_half = phi_to_unit(std::atan2(wi.y(), wi.x()) - phi_i_.front() - kPi) >= 0.5;
+    flip(other_half, other_half);
+  } else if (folds_ == 4) {
+    const double middle = phi_i_.front() + kPi / 4;
+    flip((wi.x() < 0) != (std::cos(middle) < 0), (wi.y() < 0) != (std::sin(middle) < 0));
   }
-  if (!jacobian_) return value;
-  constexpr Between kOnly{0, 0, 0};
-  return value * (ndf_.at(u_half, kOnly) / (4 * sigma_.at({theta_to_unit(theta_i), 0.5}, kOnly)));
+  const Vec3 half = wi + wo;
+  const double theta_i = polar_angle(wi);
+  const double phi_i = std::atan2(wi.y(), wi.x());
+  const Between row = between_azimuths(phi_i);
+  const Between column = between_angles(theta_i_, theta_i);
+  const auto slices = static_cast<int>(theta_i_.size());
+  return value({theta_to_unit(polar_angle(half)), phi_to_unit(std::atan2(half.y(), half.x()))},
+               {theta_to_unit(theta_i), phi_to_unit(phi_i)},
+               {.within = {row.low * slices + column.low, row.low * slices + column.high, column.share},
+                .step = (row.high - row.low) * slices,
+                .share = row.share});
+}
+
+Between RglMaterial::between_azimuths(double phi) const {
+  const double span = phi_i_.back() - phi_i_.front();
+  const double ahead = 2 * kPi * phi_to_unit(phi - phi_i_.front() - kPi);  // in [0, 2 pi)
+  if (ahead <= span) return between_angles(phi_i_, phi_i_.front() + ahead);
+  // Between the last node and the first of the next turn, which one step of rounding or one of nodes sets apart.
+  const auto last = static_cast<int>(phi_i_.size()) - 1;
+  if (folds_ == 1) return {last, 0, (ahead - span) / (2 * kPi - span)};
+  return ahead < kPi + span / 2 ? Between{last, last, 0} : Between{0, 0, 0};
 }
 
 }  // namespace sklar::brdf
