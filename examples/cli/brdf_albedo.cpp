@@ -10,7 +10,7 @@ namespace sklar::cli {
 namespace {
 
 void run(const std::string& path, const std::string& output, bool json) {
-  const brdf::AlbedoCurve curve = brdf::directional_albedo(*load_brdf(path));
+  const brdf::AlbedoCurve curve = brdf::directional_albedo(*load_isotropic_brdf(path));
   Points rows(curve.albedo.rows(), 4);
   rows << curve.theta_o * (180 / std::numbers::pi), curve.albedo;
   write_table(output, {"theta_o", "r", "g", "b"}, rows, json);

@@ -72,7 +72,7 @@ void add_brdf_compare(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("compare", "fit, measure and draw families on materials");
   const auto options = std::make_shared<Options>();
   command->add_option("MATERIAL", options->materials,
-                      "material files (.binary, .bsdf); omitted: the built-in material");
+                      "isotropic material files (.binary, .bsdf); omitted: the built-in material");
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
   add_fit_options(*command, options->fit, options->provenance);

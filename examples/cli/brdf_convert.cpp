@@ -32,7 +32,7 @@ void add_brdf_convert(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("convert", "write a material in another format, by extension");
   const auto in = std::make_shared<std::string>();
   const auto out = std::make_shared<std::string>();
-  command->add_option("IN", *in, "MERL .binary, isotropic RGL .bsdf or fitted model .json")->required();
+  command->add_option("IN", *in, "MERL .binary, RGL .bsdf of an isotropic material, or fitted model .json")->required();
   command->add_option("OUT", *out, "MERL .binary")->required();
   finish_command(*command, common, [=, &common] { run(*in, *out, common.json); });
 }

@@ -26,7 +26,7 @@ void run(const Options& options, bool json) {
   sphere.size = options.size;
   sphere.swap_directions = options.swap;
   sphere.progress = progress_bar("rendering");
-  const brdf::Image image = brdf::render_sphere(*load_brdf(options.material), sphere);
+  const brdf::Image image = brdf::render_sphere(*load_isotropic_brdf(options.material), sphere);
   if (extension == ".exr") {
     brdf::write_exr(options.output, image);
   } else {

@@ -5,24 +5,38 @@
 #include <cstdio>
 
 #include "brdf/analytic/synthetic.hpp"
+#include "brdf/data/anisotropic_brdf.hpp"
+#include "brdf/data/isotropy.hpp"
 #include "brdf/data/material.hpp"
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/model/model_io.hpp"
 
 namespace sklar::cli {
-
 void add_material(CLI::App& command, std::string& path) {
-  command.add_option("MATERIAL", path, "MERL .binary or isotropic RGL .bsdf; the built-in material by default");
+  command.add_option("MATERIAL", path, kMaterialHelp);
 }
 
 std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path, brdf::Provenance binary_provenance) {
-  return std::make_shared<const brdf::MeasuredTable>(path.empty() ? brdf::builtin_material()
-                                                                  : brdf::load_material(path, binary_provenance));
+  if (path == brdf::kAnisotropicSynthetic)
+    throw brdf::anisotropic_error(path, brdf::isotropy_deviation(*brdf::brushed_metal()));
+  return std::make_shared<const brdf::MeasuredTable>(
+      path.empty() || path == "synthetic" ? brdf::builtin_material() : brdf::load_material(path, binary_provenance));
 }
 
 brdf::BrdfPtr load_brdf(const std::string& path) {
+  if (path == brdf::kAnisotropicSynthetic) {
+    return std::make_shared<const brdf::AnisotropicTableBrdf>(
+        std::make_shared<const brdf::AnisotropicTable>(brdf::builtin_anisotropic_material()));
+  }
+  if (path.empty() || path == "synthetic") return std::make_shared<const brdf::TableBrdf>(load_table(path));
   if (std::filesystem::path(path).extension() == ".json") return brdf::read_brdf(path).brdf;
-  return std::make_shared<const brdf::TableBrdf>(load_table(path));
+  return brdf::read_material_brdf(path);
+}
+
+brdf::BrdfPtr load_isotropic_brdf(const std::string& path) {
+  brdf::BrdfPtr material = load_brdf(path);
+  if (!material->traits().isotropic) throw brdf::anisotropic_error(path, brdf::isotropy_deviation(*material));
+  return material;
 }
 
 brdf::Progress progress_bar(std::string label) {

@@ -10,16 +10,23 @@
 
 namespace sklar::cli {
 
+inline constexpr const char* kMaterialHelp =
+    "MERL .binary, RGL .bsdf, or one of the built-in materials synthetic (the default) and synthetic-anisotropic";
+
 /// Adds the positional MATERIAL; omitted, it is the built-in one.
 void add_material(CLI::App& command, std::string& path);
 
-/// A material file, or the built-in material where path is empty.
-/// @param binary_provenance of a MERL-format file, which does not say. @throws FileError
+/// An isotropic material: a file, or the built-in one where path is empty or its name.
+/// @param binary_provenance of a MERL-format file, which does not say. @throws FileError; also for an anisotropic
+/// material.
 [[nodiscard]] std::shared_ptr<const brdf::MeasuredTable> load_table(
     const std::string& path, brdf::Provenance binary_provenance = brdf::Provenance::unknown);
 
-/// A fitted model (.json), or a material read between its cell centres.
+/// A fitted model (.json), or any material, read between its cell centres or as its file says.
 [[nodiscard]] brdf::BrdfPtr load_brdf(const std::string& path);
+
+/// The same for what takes isotropic reflectance alone. @throws FileError for an anisotropic one.
+[[nodiscard]] brdf::BrdfPtr load_isotropic_brdf(const std::string& path);
 
 /// A bar on stderr where that is a terminal, else nothing.
 [[nodiscard]] brdf::Progress progress_bar(std::string label);

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "brdf/analytic/ggx.hpp"
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/data/merl.hpp"
 #include "copula/inference/csv.hpp"
 #include "tests/cli/run_command.hpp"
+#include "tests/support/anisotropic_bsdf.hpp"
 
 namespace sklar::cli {
 namespace {
@@ -63,6 +65,38 @@ TEST_F(BrdfCommand, EvalAnswersInOrder) {
   EXPECT_TRUE((table.values.row(2) == 0).all()) << "below the horizon";
   const auto document = nlohmann::json::parse(run("brdf eval --directions in.csv --json").out);
   EXPECT_EQ(document["rows"][0][1].get<double>(), table.values(0, 1));
+}
+
+TEST_F(BrdfCommand, AnisotropicMaterialsAreEvaluated) {
+  const brdf::BrdfPtr metal = brdf::brushed_metal();
+  write("brushed.bsdf", test::tensor_file(test::AnisotropicBsdf(*metal, 0.12, 0.40, {.folds = 4}).fields()));
+  write("in.csv", "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0.6,0,0.8,-0.48,0.36,0.8\n0,0.6,0.8,0.36,-0.48,0.8\n");
+  // Scatter of 2 % and interpolation; interpolation of 33 x 8 directions of a narrow lobe.
+  for (const auto& [material, tolerance] : {std::pair("synthetic-anisotropic", 0.03), {"brushed.bsdf", 0.1}}) {
+    const Result result = run(std::string("brdf eval ") + material + " --directions in.csv");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Table table = parse_csv(result.out, material);
+    const double first = metal->eval(brdf::Vec3(-0.48, 0.36, 0.8), brdf::Vec3(0.6, 0, 0.8))[1];
+    const double second = metal->eval(brdf::Vec3(0.36, -0.48, 0.8), brdf::Vec3(0, 0.6, 0.8))[1];
+    EXPECT_NEAR(table.values(0, 1) / first, 1, tolerance) << material;
+    EXPECT_NEAR(table.values(1, 1) / second, 1, tolerance) << material;
+    EXPECT_GT(std::abs(first / second - 1), 0.5);
+  }
+  EXPECT_NE(run("brdf eval --help").out.find("synthetic-anisotropic"), std::string::npos);
+}
+
+TEST_F(BrdfCommand, AnisotropicMaterialsAreRefusedWhereIsotropicOnesAreNeeded) {
+  const brdf::Ggx gloss({0.2, 0.5, 0.8}, 0.3, 0.6);
+  write("gloss.bsdf", test::tensor_file(test::AnisotropicBsdf(gloss, 0.3, 0.6, {.folds = 4}).fields()));
+  for (const auto& [material, deviation] : {std::pair("synthetic-anisotropic", "0.66"), {"gloss.bsdf", "0.40"}}) {
+    const std::string reason = std::string(material) + ": is anisotropic (isotropy deviation " + deviation +
+                               "); this needs an isotropic material";
+    for (const std::string command : {"albedo MATERIAL", "fit MATERIAL -o model.json", "render MATERIAL -o a.exr",
+                                      "convert MATERIAL a.binary", "compare MATERIAL --out out"}) {
+      std::string arguments = "brdf " + command;
+      expect_refused(arguments.replace(arguments.find("MATERIAL"), 8, material), reason);
+    }
+  }
 }
 
 TEST_F(BrdfCommand, EvalRefusesBadDirections) {
