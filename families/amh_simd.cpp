@@ -25,11 +25,13 @@ struct KernelConstants {
       : theta(parameter),
         size(std::abs(parameter)),
         rest(1 - parameter),
+        lost_rest((1 - rest) - parameter),
         log_rest(std::log1p(-parameter)),
         polynomial(std::move(coefficients)) {}
 
   double theta, size;  // theta and |theta|
   double rest;         // 1 - theta
+  double lost_rest;    // 1 - theta - rest
   double log_rest;
   Coefficients polynomial;  // R_(d+1)
 };
@@ -82,27 +84,43 @@ HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& 
                     hn::And(rows.inside(0), rows.inside(1)));
 }
 
+/// D(u) and a = u / D(u) for theta > 0, each with what is lost by its rounding, and 1 - a.
+template <class D>
+struct Weight {
+  HWY_INLINE Weight(D d, const KernelConstants& c, Vec<D> u, Vec<D> upper) : lost_scaling(hn::Set(d, c.lost_rest)) {
+    const Vec<D> theta = hn::Set(d, c.theta), rest = hn::Set(d, c.rest), product = hn::Mul(theta, u);
+    lost_scaling = hn::Add(lost_scaling, lost_of_product(d, theta, u, product));
+    scaling = sum_rounded(d, rest, product, lost_scaling);
+    const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), scaling);
+    a = hn::Mul(u, inverse);
+    const Vec<D> back = hn::Mul(a, scaling);
+    const Vec<D> missing = hn::Sub(hn::Sub(u, back), lost_of_product(d, a, scaling, back));
+    lost_a = hn::Mul(hn::NegMulAdd(a, lost_scaling, missing), inverse);
+    complement = hn::Mul(hn::Mul(rest, upper), inverse);
+  }
+
+  Vec<D> scaling, lost_scaling, a, lost_a, complement;
+};
+
 /// log c = (d+1) log(1-theta) - 2 log prod D(u_i) - log w + log R_(d+1)(x/w), x = theta prod u_i / D(u_i).
 template <class D>
 HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
   const auto n = static_cast<double>(rows.size());
   Product<D> product(d);
-  Vec<D> scalings = hn::Set(d, 1.0);
+  ExactProduct<D> scalings(d);
   auto inside = rows.inside(0);
   for (Index k = 0; k < rows.size(); ++k) {
-    const Coordinate<D> u(d, c, rows, k);
     inside = hn::And(inside, rows.inside(k));
-    const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), u.scaling);
-    product.multiply(d, hn::Mul(u.value, inverse), hn::Mul(hn::Mul(hn::Set(d, c.rest), u.upper), inverse));
-    scalings = hn::Mul(scalings, u.scaling);
+    const Weight<D> weight(d, c, rows[k], rows.upper(k));
+    product.multiply(d, weight.a, weight.lost_a, weight.complement);
+    scalings.multiply(d, weight.scaling, weight.lost_scaling);
   }
   const auto parts = product.parts(d, c.theta, c.rest);
-  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.5 * n + 1), hn::Set(d, n / 2 + 5));
-  const Vec<D> log_scalings = log(d, scalings);
+  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.0), hn::Set(d, n / 2 + 5));
+  const Vec<D> log_scalings = log(d, scalings.value());
   const double constant = (n + 1) * c.log_rest;
   const Vec<D> value = hn::Add(hn::NegMulAdd(hn::Set(d, 2.0), log_scalings, hn::Set(d, constant)), term.value);
-  const Vec<D> error =
-      hn::Add(hn::MulAdd(hn::Set(d, -4.0), log_scalings, hn::Set(d, 3 * n - 2 * constant)), term.error);
+  const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -4.0), log_scalings, hn::Set(d, 2 - 2 * constant)), term.error);
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 

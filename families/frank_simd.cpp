@@ -108,7 +108,7 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const auto parts = product.parts(d, c.q, c.tail);
   const Vec<D> of_difference = hn::Div(hn::Set(d, n * c.tail * (c.theta / 2 + 2)), parts.w);
   const Vec<D> of_w = hn::Add(of_difference, hn::Set(d, n / 2 + c.theta / 2 + 3));
-  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.8 * n + 1), of_w);
+  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.3 * n + 2), of_w);
   const double constant = (n - 1) * c.log_theta_by_q;
   const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), sum.value());
   const Vec<D> value = hn::Add(hn::Sub(hn::Set(d, constant), exponent), term.value);

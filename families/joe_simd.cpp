@@ -68,7 +68,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   // q |log q| is below 1 - q, and where q is below w, below w max(1, |log w|).
   const Vec<D> of_w =
       hn::MulAdd(hn::Set(d, 2.0), hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0)), hn::Set(d, n / 2 + 3));
-  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, c.rest, hn::Set(d, 4 * n), of_w);
+  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, c.rest, hn::Set(d, 3.5 * n + 1), of_w);
   const Vec<D> upper = hn::Mul(hn::Set(d, c.theta - 1), log_sum.value());
   const Vec<D> value = hn::Add(hn::Add(hn::Set(d, (n - 1) * c.log_theta), upper), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -2.5), upper, hn::Set(d, 2 * n * c.log_theta)), term.error);

@@ -18,16 +18,19 @@ namespace sklar::simd::HWY_NAMESPACE::formulas {
 template <class D>
 class Product {
  public:
-  explicit Product(D d) : value_(hn::Set(d, 1.0)), complement_(hn::Zero(d)) {}
+  explicit Product(D d) : value_(d), complement_(hn::Zero(d)) {}
 
-  HWY_INLINE void multiply(D d, Vec<D> a, Vec<D> complement) {
+  HWY_INLINE void multiply(D d, Vec<D> a, Vec<D> complement) { multiply(d, a, hn::Zero(d), complement); }
+
+  /// By a + lost.
+  HWY_INLINE void multiply(D d, Vec<D> a, Vec<D> lost, Vec<D> complement) {
     complement_ = hn::MulAdd(hn::Sub(hn::Set(d, 1.0), complement_), complement, complement_);
-    value_ = hn::Mul(value_, a);
+    value_.multiply(d, a, lost);
   }
 
   HWY_INLINE Vec<D> complement() const { return complement_; }
 
-  /// x, w, and whether they come from the 1 - a_i: where x is above 1/2.
+  /// x, w, and whether they come from the 1 - a_i.
   struct Parts {
     Vec<D> x, w;
     Mask<D> near_one;
@@ -36,13 +39,18 @@ class Product {
   /// @param rest 1 - s.
   HWY_INLINE Parts parts(D d, double s, double rest) const {
     const Vec<D> one = hn::Set(d, 1.0);
-    const Vec<D> x = hn::Mul(hn::Set(d, s), value_), w = hn::MulAdd(hn::Set(d, s), complement_, hn::Set(d, rest));
-    const auto near_one = hn::Lt(w, hn::Set(d, 0.5));
+    const Vec<D> x = hn::Mul(hn::Set(d, s), value_.value());
+    const Vec<D> w = hn::MulAdd(hn::Set(d, s), complement_, hn::Set(d, rest));
+    const auto near_one = hn::Lt(w, hn::Set(d, kNearOne));
     return {hn::IfThenElse(near_one, hn::Sub(one, w), x), hn::IfThenElse(near_one, w, hn::Sub(one, x)), near_one};
   }
 
  private:
-  Vec<D> value_, complement_;
+  // Below it the sum of complements, of a smaller error than the product, leaves the smaller error of x/w.
+  static constexpr double kNearOne = 0.75;
+
+  ExactProduct<D> value_;
+  Vec<D> complement_;
 };
 
 /// log R(x/w) - b log w, 0 <= b <= 1, and its error in units of 2^-52.

@@ -123,6 +123,38 @@ class Sum {
   Vec<D> sum_, lost_;
 };
 
+/// a b - product, product the rounded a b: exact, unless it is below the smallest number.
+template <class D>
+HWY_INLINE Vec<D> lost_of_product([[maybe_unused]] D d, Vec<D> a, Vec<D> b, Vec<D> product) {
+#if HWY_NATIVE_FMA
+  return hn::Neg(hn::NegMulAdd(a, b, product));
+#else  // Dekker's product of halves
+  const Vec<D> splitter = hn::Set(d, Precision<D>::kSingle ? 0x1p12 + 1 : 0x1p27 + 1);
+  const Vec<D> a_scaled = hn::Mul(splitter, a), b_scaled = hn::Mul(splitter, b);
+  const Vec<D> a_high = hn::Sub(a_scaled, hn::Sub(a_scaled, a)), a_low = hn::Sub(a, a_high);
+  const Vec<D> b_high = hn::Sub(b_scaled, hn::Sub(b_scaled, b)), b_low = hn::Sub(b, b_high);
+  const Vec<D> high = hn::Sub(hn::Mul(a_high, b_high), product);
+  return hn::Add(hn::Add(hn::Add(high, hn::Mul(a_high, b_low)), hn::Mul(a_low, b_high)), hn::Mul(a_low, b_low));
+#endif
+}
+
+/// A product that loses no digits, of factors x + lost with lost about the rounding of x.
+template <class D>
+class ExactProduct {
+ public:
+  explicit ExactProduct(D d) : product_(hn::Set(d, 1.0)), lost_(hn::Zero(d)) {}
+  HWY_INLINE void multiply(D d, Vec<D> x, Vec<D> lost) {
+    const Vec<D> next = hn::Mul(product_, x);
+    const Vec<D> of_this = hn::MulAdd(product_, lost, lost_of_product(d, product_, x, next));
+    lost_ = hn::MulAdd(lost_, x, of_this);
+    product_ = next;
+  }
+  HWY_INLINE Vec<D> value() const { return hn::Add(product_, lost_); }
+
+ private:
+  Vec<D> product_, lost_;
+};
+
 /// out[i] = formula(d, columns of row i) for rows from first in steps of a pack; returns the first row left.
 template <class D, class Formula>
 Index fill(D d, Index first, const Rows& rows, double* out, const Formula& formula) {
