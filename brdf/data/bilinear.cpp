@@ -15,9 +15,11 @@ double BilinearStack::at(const Vec2& position, const ImageBlend& image) const {
   const Between x = between_clamped(position.x() * (columns_ - 1), columns_);
   const Between y = between_clamped(position.y() * (rows_ - 1), rows_);
   const auto within = [&](int n) {
-    const double* low = values_.data() + (static_cast<std::ptrdiff_t>(n) * rows_ + y.low) * columns_;
-    const double* high = values_.data() + (static_cast<std::ptrdiff_t>(n) * rows_ + y.high) * columns_;
-    return mix(mix(low[x.low], low[x.high], x.share), mix(high[x.low], high[x.high], x.share), y.share);
+    const auto along_row = [&](int row) {
+      const float* values = values_.data() + (static_cast<std::ptrdiff_t>(n) * rows_ + row) * columns_;
+      return mix(static_cast<double>(values[x.low]), static_cast<double>(values[x.high]), x.share);
+    };
+    return mix(along_row(y.low), along_row(y.high), y.share);
   };
   return mix(image, within);
 }

@@ -19,11 +19,11 @@ class BilinearStack {
   /// @param position in the unit square, clamped to it. @param image within [0, images).
   [[nodiscard]] double at(const Vec2& position, const ImageBlend& image) const;
 
-  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(double); }
+  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(float); }
 
  private:
   int rows_, columns_;
-  std::vector<double> values_;
+  std::vector<float> values_;
 };
 
 /// The inverse of sampling a stack of bilinear densities: the point of the density's domain that uniforms s would give

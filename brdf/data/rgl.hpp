@@ -83,8 +83,8 @@ class RglBrdf final : public Brdf {
 /// The reference table of any file on four coordinates: RglBrdf at each centre. The symmetries of the file are added to
 /// those of the grid, and those that the data have (fold_symmetric) to the result's. The report is filled.
 /// @throws std::invalid_argument if the grid with the symmetries of the file is not sound.
-[[nodiscard]] AnisotropicTable resample_anisotropic(std::shared_ptr<const RglMaterial> material, std::string name,
-                                                    AnisotropicGrid grid = {});
+[[nodiscard]] AnisotropicTable resample_anisotropic(const std::shared_ptr<const RglMaterial>& material,
+                                                    std::string name, AnisotropicGrid grid = {});
 
 /// ImportReport::median_asymmetry of a material, over the cells of kProbeGrid.
 [[nodiscard]] double median_asymmetry(const RglMaterial& material);

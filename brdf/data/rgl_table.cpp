@@ -55,7 +55,7 @@ MeasuredTable resample(const RglMaterial& material, std::string name) {
   return table;
 }
 
-AnisotropicTable resample_anisotropic(std::shared_ptr<const RglMaterial> material, std::string name,
+AnisotropicTable resample_anisotropic(const std::shared_ptr<const RglMaterial>& material, std::string name,
                                       AnisotropicGrid grid) {
   const RglBrdf brdf(material);
   if (material->folds() > 1) grid.turns = std::lcm(grid.turns, 2);

@@ -72,8 +72,10 @@ class SamplerCells {
     std::vector<double> result;
     double rest = 1;
     for (int cell = 0; cell < rows_ * columns_; ++cell) {
-      const double theta = theta_step_ * (cell / columns_);
-      const double phi = phi_step_ * (cell % columns_) - kPi;
+      const int row = cell / columns_;
+      const int column = cell % columns_;
+      const double theta = theta_step_ * row;
+      const double phi = phi_step_ * column - kPi;
       result.push_back(integrate(density, theta, theta + theta_step_, phi, phi + phi_step_, 1e-9));
       rest -= result.back();
     }

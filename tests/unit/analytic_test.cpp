@@ -43,8 +43,10 @@ double albedo(const Brdf& model, const Vec3& wo) {
   double sum = 0;
   constexpr int kCells = 16;
   for (int cell = 0; cell < kCells * kCells; ++cell) {
-    const double theta = kPi / 2 / kCells * (cell / kCells);
-    const double phi = 2 * kPi / kCells * (cell % kCells);
+    const int row = cell / kCells;
+    const int column = cell % kCells;
+    const double theta = kPi / 2 / kCells * row;
+    const double phi = 2 * kPi / kCells * column;
     sum += test::integrate(
         [&](double t, double p) {
           return model.eval(wo, spherical_direction(t, p)).maxCoeff() * std::cos(t) * std::sin(t);

@@ -182,7 +182,7 @@ TEST_F(AnisotropicRgl, MisshapenFieldsAreRefusedByName) {
     change(bad[field]);
     return bad;
   };
-  const auto azimuths = [](std::vector<float> values) {
+  const auto azimuths = [](const std::vector<float>& values) {
     return [=](test::TensorField& field) { field = test::floats("phi_i", {values.size()}, values); };
   };
   (void)material(good);
@@ -207,6 +207,19 @@ TEST_F(AnisotropicRgl, MisshapenFieldsAreRefusedByName) {
                  "field 'sigma' has shape 16 x 1, expected (2 or more) x (2 or more)");
   expect_refused(with(4, [](auto& field) { std::fill(field.data.end() - 64, field.data.end(), '\0'); }),
                  "field 'vndf' has a slice without mass");
+
+  const std::string bytes = test::tensor_file(good);
+  Rng rng(5);
+  for (int n = 0; n < 1000; ++n) {  // a damaged file is read or refused, nothing else
+    std::string damaged = bytes;
+    for (int k = 0; k < 3; ++k) damaged[rng() % 330] = static_cast<char>(rng());
+    write_file(path(), damaged);
+    try {
+      const Rgb value = RglBrdf(std::make_shared<const RglMaterial>(path())).eval(Vec3(0.6, 0, 0.8), Vec3(0, 0.6, 0.8));
+      EXPECT_FALSE(value.isNaN().any());
+    } catch (const FileError&) {
+    }
+  }
 }
 
 }  // namespace
