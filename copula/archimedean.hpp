@@ -32,10 +32,8 @@ class Archimedean final : public ArchimedeanCopula {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
-    const bool started = u.cols() == dim() && start(u, reflection, [&](const Kernels& kernels) {
-                           kernels.log_pdf(Accuracy::standard, Rows(u), out.data());
-                         });
-    for_each_row(u, reflection, out, started, [this](const Row& row) {
+    const Answered answered = start(Quantity::log_pdf, u, reflection, out.data());
+    for_each_row(u, reflection, out, answered, [this](const Row& row) {
       if (row.u.size() == 1) return 0.0;
       return resolve([&]<class T>() { return log_density(RowOf<T>(row).all()); },
                      [](const auto& x) { return accept_log(x); });
@@ -44,7 +42,7 @@ class Archimedean final : public ArchimedeanCopula {
 
   void log_cdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override {
     require_few(reflection);
-    for_each_row(u, reflection, out, false, [this](const Row& row) {
+    for_each_row(u, reflection, out, Answered::none, [this](const Row& row) {
       if (std::ranges::find(row.u, 0.0) != row.u.end()) return -kInfinity;
       return resolve(
           [&]<class T>() {
@@ -57,10 +55,8 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void conditional_into(const PointsRef& u, const Reflection& reflection, Tail tail, ColumnOut out) const override {
-    const bool started = start(u, reflection, [&](const Kernels& kernels) {
-      kernels.conditional(Accuracy::standard, Rows(u), tail, out.data());
-    });
-    for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
+    const Answered answered = start(tail == Tail::lower ? Quantity::h : Quantity::h_upper, u, reflection, out.data());
+    for_each_row(u, reflection, out, answered, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;
       return resolve(
           [&]<class T>() { return log_conditional(RowOf<T>(row).all()); },
@@ -70,11 +66,9 @@ class Archimedean final : public ArchimedeanCopula {
 
   void conditional_inverse_into(const PointsRef& u, const Reflection& reflection, Tail tail,
                                 ColumnOut out) const override {
-    const bool started = start(u, reflection, [&](const Kernels& kernels) {
-      kernels.conditional_inverse(Accuracy::standard, Rows(u), tail, out.data());
-      out = (out < 1).select(out, std::numeric_limits<double>::quiet_NaN());  // inside, unless 1 is the nearest double
-    });
-    for_each_row(u, reflection, out, started, [this, tail](const Row& row) {
+    const Answered answered =
+        start(tail == Tail::lower ? Quantity::h_inv : Quantity::h_inv_upper, u, reflection, out.data());
+    for_each_row(u, reflection, out, answered, [this, tail](const Row& row) {
       if (const auto value = last_itself(row, tail)) return *value;
       const auto kernel = [&]<class T>() {
         const RowOf<T> in_type(row);
@@ -86,29 +80,28 @@ class Archimedean final : public ArchimedeanCopula {
     });
   }
 
-  // In single precision; in double where that does not serve.
-  void fast_into(Quantity quantity, const PointsRef& u, ColumnOut out) const override {
-    const bool joint = quantity == Quantity::log_pdf;
-    if (kernels_ == nullptr || quantity == Quantity::log_cdf || u.cols() < (joint ? dim() : 2)) {
-      return standard_into(quantity, u, out);
+  Answered quick_into(Quantity quantity, Accuracy accuracy, const PointsRef& u, double* out) const override {
+    if (kernels_ == nullptr || u.cols() < (quantity == Quantity::log_pdf ? dim() : 2)) return Answered::none;
+    switch (quantity) {
+      case Quantity::log_pdf:
+        return kernels_->log_pdf(accuracy, Rows(u), out);
+      case Quantity::log_cdf:
+        break;
+      case Quantity::h:
+        return kernels_->conditional(accuracy, Rows(u), Tail::lower, out);
+      case Quantity::h_upper:
+        return kernels_->conditional(accuracy, Rows(u), Tail::upper, out);
+      case Quantity::h_inv:
+        return kernels_->conditional_inverse(accuracy, Rows(u), Tail::lower, out);
+      case Quantity::h_inv_upper:
+        return kernels_->conditional_inverse(accuracy, Rows(u), Tail::upper, out);
     }
-    const bool upper = quantity == Quantity::h_upper || quantity == Quantity::h_inv_upper;
-    const Tail tail = upper ? Tail::upper : Tail::lower;
-    if (joint) {
-      kernels_->log_pdf(Accuracy::fast, Rows(u), out.data());
-    } else if (quantity == Quantity::h || quantity == Quantity::h_upper) {
-      kernels_->conditional(Accuracy::fast, Rows(u), tail, out.data());
-    } else {
-      kernels_->conditional_inverse(Accuracy::fast, Rows(u), tail, out.data());
-    }
-    std::vector<Index> left;
-    for (Index i = 0; i < out.size(); ++i) {
-      if (std::isnan(out(i))) left.push_back(i);
-    }
-    if (left.empty()) return;
-    Column answers(static_cast<Index>(left.size()));
-    standard_into(quantity, u(left, Eigen::all), answers);
-    out(left) = answers;
+    return Answered::none;
+  }
+
+  // Lets the vector kernels answer the rows that they can.
+  Answered start(Quantity quantity, const PointsRef& u, const Reflection& reflection, double* out) const {
+    return reflection.none() ? quick_into(quantity, Accuracy::standard, u, out) : Answered::none;
   }
 
   // h and its inverse where they are the last entry.
@@ -125,7 +118,7 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void log_abs_dpsi_into(int order, const ColumnRef& t, ColumnOut out) const override {
-    for_each_row(PointsRef(t), {}, out, false, [this, order](const Row& row) {
+    for_each_row(PointsRef(t), {}, out, Answered::none, [this, order](const Row& row) {
       return resolve([&]<class T>() { return generator_.log_abs_dpsi(order, T(row.u[0])); },
                      [](const auto& x) { return accept_log(x); });
     });
@@ -152,7 +145,7 @@ class Archimedean final : public ArchimedeanCopula {
   }
 
   void kendall_into(const ColumnRef& v, Tail tail, ColumnOut out) const override {
-    for_each_row(PointsRef(v), {}, out, false, [this, tail](const Row& row) {
+    for_each_row(PointsRef(v), {}, out, Answered::none, [this, tail](const Row& row) {
       const double level = row.u[0];
       if (level == 0 || level == 1) return tail == Tail::lower ? level : 1 - level;
       const auto kernel = [&]<class T>() {
@@ -206,19 +199,12 @@ class Archimedean final : public ArchimedeanCopula {
     return resolve_digits(digits, [&](int) { return generator_.log_abs_dpsi(order, Widest(t)); });
   }
 
-  // Lets the vector kernels, where there are any, answer the rows that they can.
-  template <class Call>
-  bool start(const PointsRef& u, const Reflection& reflection, const Call& call) const {
-    if (kernels_ == nullptr || u.cols() < 2 || !reflection.none()) return false;
-    call(*kernels_);
-    return true;
-  }
-
-  // Calls answer(row) for each row without NaN; a row with NaN gives NaN. @param started whether out holds answers, and
-  // NaN for the rows to be answered here.
+  // Calls answer(row) for each row without NaN; a row with NaN gives NaN. @param answered which rows have an
+  // answer in out, the others NaN.
   template <class Answer>
-  static void for_each_row(const PointsRef& u, const Reflection& reflection, ColumnOut out, bool started,
+  static void for_each_row(const PointsRef& u, const Reflection& reflection, ColumnOut out, Answered answered,
                            const Answer& answer) {
+    if (answered == Answered::all) return;
     constexpr std::size_t kOnStack = 16;
     const auto columns = static_cast<std::size_t>(u.cols());
     std::array<double, kOnStack> small;
@@ -226,7 +212,7 @@ class Archimedean final : public ArchimedeanCopula {
     const std::span<double> row(columns > kOnStack ? large.data() : small.data(), columns);
     const Reflection* reflected = reflection.none() ? nullptr : &reflection;
     for (Index i = 0; i < u.rows(); ++i) {
-      if (started && !std::isnan(out(i))) continue;
+      if (answered == Answered::some && !std::isnan(out(i))) continue;
       bool missing = false;
       for (Index k = 0; k < u.cols(); ++k) {
         row[static_cast<std::size_t>(k)] = u(i, k);

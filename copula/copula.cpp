@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "copula/error.hpp"
+#include "copula/unit_interval.hpp"
 
 namespace sklar {
 
@@ -16,6 +17,13 @@ namespace {
 void require_points(const char* function, const PointsRef& u, Index lowest, Index highest) {
   require_columns(function, "u", u.cols(), lowest, highest);
   require_unit_cube(function, "u", u);
+}
+
+bool is_in_unit_cube(const PointsRef& u) {
+  for (Index k = 0; k < u.cols(); ++k) {
+    if (!none_outside_unit_interval(u.col(k).data(), u.rows())) return false;
+  }
+  return true;
 }
 
 constexpr Index kChunk = 4096;  // rows: a few columns of them fit the innermost caches
@@ -48,21 +56,40 @@ void Copula::require_digits(int digits) {
 }
 
 Column Copula::log_pdf(const PointsRef& u, Accuracy accuracy) const {
-  require_points("log_pdf", u, dim_, dim_);
-  return evaluate(Quantity::log_pdf, u, accuracy);
+  require_columns("log_pdf", "u", u.cols(), dim_, dim_);
+  return evaluate("log_pdf", Quantity::log_pdf, u, accuracy);
 }
 
-Column Copula::evaluate(Quantity quantity, const PointsRef& u, Accuracy accuracy) const {
+Column Copula::evaluate(const char* function, Quantity quantity, const PointsRef& u, Accuracy accuracy) const {
   Column out(u.rows());
   for_each_chunk(u.rows(), [&](Index first, Index count) {
     const auto rows = u.middleRows(first, count);
-    accuracy == Accuracy::fast ? fast_into(quantity, rows, out.segment(first, count))
-                               : standard_into(quantity, rows, out.segment(first, count));
+    auto values = out.segment(first, count);
+    const Answered answered = quick_into(quantity, accuracy, rows, values.data());
+    if (answered == Answered::all) return;  // which tells that the rows are in the unit cube
+    if (!is_in_unit_cube(rows)) require_unit_cube(function, "u", u);
+    answered == Answered::some ? fill_left(quantity, rows, values) : standard_into(quantity, rows, values);
   });
   return out;
 }
 
-void Copula::standard_into(Quantity quantity, const PointsRef& u, ColumnOut out) const {
+Answered Copula::quick_into(Quantity /*quantity*/, Accuracy /*accuracy*/, const PointsRef& /*u*/,
+                            double* /*out*/) const {
+  return Answered::none;
+}
+
+/// The rows whose value is NaN.
+void Copula::fill_left(Quantity quantity, const PointsRef& u, ColumnOut out) const {
+  std::vector<Index> left;
+  for (Index i = 0; i < out.size(); ++i) {
+    if (std::isnan(out(i))) left.push_back(i);
+  }
+  Column answers(static_cast<Index>(left.size()));
+  standard_into(quantity, u(left, Eigen::all), answers);
+  out(left) = answers;
+}
+
+void Copula::standard_into(Quantity quantity, const PointsRef& u, const ColumnOut& out) const {
   switch (quantity) {
     case Quantity::log_pdf:
       return log_pdf_into(u, {}, out);
@@ -79,10 +106,6 @@ void Copula::standard_into(Quantity quantity, const PointsRef& u, ColumnOut out)
   }
 }
 
-void Copula::fast_into(Quantity quantity, const PointsRef& u, ColumnOut out) const {
-  standard_into(quantity, u, out);
-}
-
 double Copula::log_pdf_at(std::span<const double> u) const {
   assert(static_cast<int>(u.size()) == dim_);
   double out;
@@ -95,8 +118,8 @@ Column Copula::pdf(const PointsRef& u) const {
 }
 
 Column Copula::log_cdf(const PointsRef& u) const {
-  require_points("log_cdf", u, dim_, dim_);
-  return evaluate(Quantity::log_cdf, u, Accuracy::standard);
+  require_columns("log_cdf", "u", u.cols(), dim_, dim_);
+  return evaluate("log_cdf", Quantity::log_cdf, u, Accuracy::standard);
 }
 
 Column Copula::cdf(const PointsRef& u) const {
@@ -104,13 +127,13 @@ Column Copula::cdf(const PointsRef& u) const {
 }
 
 Column Copula::h(const PointsRef& u, Accuracy accuracy) const {
-  require_points("h", u, 1, dim_);
-  return evaluate(Quantity::h, u, accuracy);
+  require_columns("h", "u", u.cols(), 1, dim_);
+  return evaluate("h", Quantity::h, u, accuracy);
 }
 
 Column Copula::h_upper(const PointsRef& u, Accuracy accuracy) const {
-  require_points("h_upper", u, 1, dim_);
-  return evaluate(Quantity::h_upper, u, accuracy);
+  require_columns("h_upper", "u", u.cols(), 1, dim_);
+  return evaluate("h_upper", Quantity::h_upper, u, accuracy);
 }
 
 Column Copula::log_conditional_pdf(const PointsRef& u) const {
@@ -122,13 +145,13 @@ Column Copula::log_conditional_pdf(const PointsRef& u) const {
 }
 
 Column Copula::h_inv(const PointsRef& u, Accuracy accuracy) const {
-  require_points("h_inv", u, 1, dim_);
-  return evaluate(Quantity::h_inv, u, accuracy);
+  require_columns("h_inv", "u", u.cols(), 1, dim_);
+  return evaluate("h_inv", Quantity::h_inv, u, accuracy);
 }
 
 Column Copula::h_inv_upper(const PointsRef& u, Accuracy accuracy) const {
-  require_points("h_inv_upper", u, 1, dim_);
-  return evaluate(Quantity::h_inv_upper, u, accuracy);
+  require_columns("h_inv_upper", "u", u.cols(), 1, dim_);
+  return evaluate("h_inv_upper", Quantity::h_inv_upper, u, accuracy);
 }
 
 Points Copula::rosenblatt(const PointsRef& u) const {

@@ -99,7 +99,7 @@ class Copula {
   explicit Copula(int dim);
 
   /// The quantity with the accuracy of the public calls. Precondition: u as these take it.
-  void standard_into(Quantity quantity, const PointsRef& u, ColumnOut out) const;
+  void standard_into(Quantity quantity, const PointsRef& u, const ColumnOut& out) const;
 
   /// @throws std::invalid_argument for a number of digits that exact does not give.
   static void require_digits(int digits);
@@ -122,10 +122,13 @@ class Copula {
   /// One point of this copula rotated. Precondition: not the conditional route; has_frailty() for that of the frailty.
   virtual void draw(Route route, const Reflection& reflection, Rng& rng, std::span<double> u) const = 0;
 
-  // The same within kFastTolerance, or more exactly.
-  virtual void fast_into(Quantity quantity, const PointsRef& u, ColumnOut out) const;
+  // What vector kernels answer with this accuracy, NaN for the rows that they leave; u may be outside the unit cube.
+  [[nodiscard]] virtual Answered quick_into(Quantity quantity, Accuracy accuracy, const PointsRef& u,
+                                            double* out) const;
 
-  [[nodiscard]] Column evaluate(Quantity quantity, const PointsRef& u, Accuracy accuracy) const;
+  // A public call of this name. Precondition: the number of columns.
+  [[nodiscard]] Column evaluate(const char* function, Quantity quantity, const PointsRef& u, Accuracy accuracy) const;
+  void fill_left(Quantity quantity, const PointsRef& u, ColumnOut out) const;
 
   // Makes uniforms, all but the leftmost fixed columns, points of the copula.
   void invert(Points& u, Index fixed) const;

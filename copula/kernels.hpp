@@ -21,22 +21,26 @@ struct Rows {
 
 enum class Tail { lower, upper };  ///< a probability or its complement
 
-/// Each function fills rows.count values, with NaN for the rows that it leaves: those on the boundary, of an unusual
-/// size, or whose error estimate is above the tolerance of that accuracy. What it answers meets it.
+/// Which rows of a batch have an answer. none: nothing is written.
+enum class Answered { none, some, all };
+
+/// Each function fills rows.count values, with NaN for the rows that it leaves: those on the boundary or outside the
+/// unit cube, of an unusual size, or whose error estimate is above the tolerance of that accuracy. What it answers
+/// meets it.
 class Kernels {
  public:
   virtual ~Kernels() = default;
   /// @param rows of as many columns as the copula has.
-  virtual void log_pdf(Accuracy accuracy, const Rows& rows, double* out) const = 0;
-  virtual void conditional(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
-  virtual void conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
+  virtual Answered log_pdf(Accuracy accuracy, const Rows& rows, double* out) const = 0;
+  virtual Answered conditional(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
+  virtual Answered conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
 };
 
 template <class Constants>
 struct KernelFunctions {
-  void (*log_pdf)(const Constants&, const Rows&, double*);
-  void (*conditional)(const Constants&, const Rows&, Tail, double*);
-  void (*conditional_inverse)(const Constants&, const Rows&, Tail, double*);
+  Answered (*log_pdf)(const Constants&, const Rows&, double*);
+  Answered (*conditional)(const Constants&, const Rows&, Tail, double*);
+  Answered (*conditional_inverse)(const Constants&, const Rows&, Tail, double*);
 };
 
 /// What one instruction set offers for a family.
@@ -53,14 +57,14 @@ template <class Constants>
     Implementation(Constants constants, const KernelTable<Constants>& table)
         : constants_(std::move(constants)), table_(table) {}
 
-    void log_pdf(Accuracy accuracy, const Rows& rows, double* out) const override {
-      functions(accuracy).log_pdf(constants_, rows, out);
+    Answered log_pdf(Accuracy accuracy, const Rows& rows, double* out) const override {
+      return functions(accuracy).log_pdf(constants_, rows, out);
     }
-    void conditional(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const override {
-      functions(accuracy).conditional(constants_, rows, tail, out);
+    Answered conditional(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const override {
+      return functions(accuracy).conditional(constants_, rows, tail, out);
     }
-    void conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const override {
-      functions(accuracy).conditional_inverse(constants_, rows, tail, out);
+    Answered conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const override {
+      return functions(accuracy).conditional_inverse(constants_, rows, tail, out);
     }
 
    private:

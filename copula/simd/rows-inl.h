@@ -155,40 +155,47 @@ class ExactProduct {
   Vec<D> product_, lost_;
 };
 
-/// out[i] = formula(d, columns of row i) for rows from first in steps of a pack; returns the first row left.
+/// out[i] = formula(d, columns of row i) for rows from first in steps of a pack; returns the first row left over.
+/// @param all cleared where a value is NaN.
 template <class D, class Formula>
-Index fill(D d, Index first, const Rows& rows, double* out, const Formula& formula) {
+Index fill(D d, Index first, const Rows& rows, double* out, const Formula& formula, bool& all) {
+  const Vec<D> zero = hn::Zero(d);
+  auto answered = hn::Le(zero, zero);
   for (; first + hn::size(d) <= rows.count; first += hn::size(d)) {
-    hn::store(formula(d, Columns<D>(d, rows.first + first, rows.stride, rows.columns)), d, out + first);
+    const Vec<D> value = formula(d, Columns<D>(d, rows.first + first, rows.stride, rows.columns));
+    answered = hn::And(answered, hn::Le(value, value));
+    hn::store(value, d, out + first);
   }
+  all = all && hn::AllFalse(d, hn::Not(answered));
   return first;
 }
 
 /// out[i] = formula(d, columns of row i). A row's value does not depend on its place.
 template <class Real, class Formula>
-void for_each_row(const Rows& rows, double* out, const Formula& formula) {
+Answered for_each_row(const Rows& rows, double* out, const Formula& formula) {
   constexpr int kParts = 4;
   constexpr Index kMostLanes = 16, kOnStack = 16;
   using D = pack::Tag<Real, 1>;
   const D d;
-  Index row = fill(pack::Tag<Real, kParts>(), 0, rows, out, formula);
-  row = fill(d, row, rows, out, formula);
-  if (row == rows.count) return;
-  // A last vector, filled up with its last row.
-  const Index lanes = hn::size(d), left = rows.count - row;
-  double small[kMostLanes * kOnStack], results[kMostLanes];
-  std::vector<double> large(static_cast<std::size_t>(rows.columns > kOnStack ? rows.columns * lanes : 0));
-  double* const padded = large.empty() ? small : large.data();
-  for (Index k = 0; k < rows.columns; ++k) {
-    const double* column = rows.first + row + k * rows.stride;
-    for (Index lane = 0; lane < lanes; ++lane) padded[k * lanes + lane] = column[std::min(lane, left - 1)];
+  bool all = true;
+  Index row = fill(pack::Tag<Real, kParts>(), 0, rows, out, formula, all);
+  row = fill(d, row, rows, out, formula, all);
+  if (row < rows.count) {  // a last vector, filled up with its last row
+    const Index lanes = hn::size(d), left = rows.count - row;
+    double small[kMostLanes * kOnStack], results[kMostLanes];
+    std::vector<double> large(static_cast<std::size_t>(rows.columns > kOnStack ? rows.columns * lanes : 0));
+    double* const padded = large.empty() ? small : large.data();
+    for (Index k = 0; k < rows.columns; ++k) {
+      const double* column = rows.first + row + k * rows.stride;
+      for (Index lane = 0; lane < lanes; ++lane) padded[k * lanes + lane] = column[std::min(lane, left - 1)];
+    }
+    Rows last = rows;
+    last.first = padded;
+    last.stride = last.count = lanes;
+    fill(d, 0, last, results, formula, all);
+    std::copy_n(results, left, out + row);
   }
-  hn::store(formula(d, Columns<D>(d, padded, lanes, rows.columns)), d, results);
-  std::copy_n(results, left, out + row);
-}
-
-inline void leave_all(const Rows& rows, double* out) {
-  std::fill_n(out, rows.count, std::numeric_limits<double>::quiet_NaN());
+  return all ? Answered::all : Answered::some;
 }
 
 /// The functions of a family in one precision. Formulas has, static:
@@ -200,25 +207,26 @@ constexpr KernelFunctions<Constants> functions_of() {
   constexpr Index kMostColumns = sizeof(Real) == sizeof(float) ? 2 : std::numeric_limits<Index>::max();
   return {.log_pdf =
               [](const Constants& c, const Rows& rows, double* out) {
-                if (rows.columns > kMostColumns || !Formulas::answers_log_pdf(c, rows.columns))
-                  return leave_all(rows, out);
-                for_each_row<Real>(
+                if (rows.columns > kMostColumns || !Formulas::answers_log_pdf(c, rows.columns)) return Answered::none;
+                return for_each_row<Real>(
                     rows, out, [&](auto d, const auto& columns) HWY_ATTR { return Formulas::log_pdf(d, c, columns); });
               },
           .conditional =
               [](const Constants& c, const Rows& rows, Tail tail, double* out) {
                 if (rows.columns > kMostColumns || !Formulas::answers_conditional(c, rows.columns))
-                  return leave_all(rows, out);
-                for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+                  return Answered::none;
+                return for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
                   return Formulas::conditional(d, c, tail, columns);
                 });
               },
           .conditional_inverse =
               [](const Constants& c, const Rows& rows, Tail tail, double* out) {
                 if (rows.columns > kMostColumns || !Formulas::answers_conditional(c, rows.columns))
-                  return leave_all(rows, out);
-                for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
-                  return Formulas::conditional_inverse(d, c, tail, columns);
+                  return Answered::none;
+                return for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+                  const auto value = Formulas::conditional_inverse(d, c, tail, columns);
+                  // Whether 1 is the nearest double is for the exact route to say.
+                  return hn::IfThenElse(hn::Lt(value, hn::Set(d, 1.0)), value, hn::NaN(d));
                 });
               }};
 }

@@ -111,6 +111,18 @@ TEST_P(Contract, BadShapesAndValuesAreNamed) {
   EXPECT_THROW((void)family().make(2, too_many), std::invalid_argument);
 }
 
+TEST_P(Contract, AValueOutsideIsNamedByItsRowInALargeBatch) {
+  const CopulaPtr copula = cases({2}).front().copula();
+  Points u = Points::Constant(9000, 2, 0.5);
+  u(8500, 1) = -0.25;
+  for (const Accuracy accuracy : {Accuracy::fast, Accuracy::standard}) {
+    const std::string joint = message_of<std::domain_error>([&] { (void)copula->log_pdf(u, accuracy); });
+    EXPECT_NE(joint.find("log_pdf: u must be in [0,1], got u(8500,1) = -0.25"), std::string::npos) << joint;
+    const std::string inverse = message_of<std::domain_error>([&] { (void)copula->h_inv(u, accuracy); });
+    EXPECT_NE(inverse.find("h_inv: u must be in [0,1], got u(8500,1) = -0.25"), std::string::npos) << inverse;
+  }
+}
+
 TEST_P(Contract, ParametersOutsideTheDomainAreNamed) {
   for (std::size_t i = 0; i < family().parameters.size(); ++i) {
     for (const int dim : {2, 3, 5, 10}) {
