@@ -115,10 +115,12 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
     moving = hn::And(moving, hn::Gt(hn::Abs(step), hn::Mul(hn::Set(d, kLastStep<D>), s)));
   }
   const Vec<D> q = hn::Neg(e.expm1), log_upper = hn::Mul(log_of_complement(d, q, e.exp), hn::Set(d, 1 / c.theta));
-  // Of s: what odds carry, and the target's 1.5 by how much s answers it.
-  const Vec<D> of_odds = hn::MulAdd(hn::Set(d, -2.5 * c.theta), u.log_upper, hn::Set(d, 8.0));
+  // Of s: what odds carry, and the target's 1.5 by how much s answers it; log q moves by s e^-s / q <= 1 of that. The
+  // logarithm adds 2 and what q and e^-s carry, 1.5 / q where q is above 1/2.
+  const Vec<D> of_odds = hn::MulAdd(hn::Set(d, -2.5 * c.theta), u.log_upper, hn::Set(d, 12.0));
   const Vec<D> of_s = hn::MulAdd(hn::Set(d, 4.0), hn::Div(target, hn::Mul(slope, s)), of_odds);
-  const Vec<D> error = hn::MulAdd(of_s, hn::Set(d, 1 / c.theta), hn::Mul(hn::Set(d, -2.0), log_upper));
+  const Vec<D> of_q = hn::Mul(of_s, hn::Div(hn::Mul(s, e.exp), q));
+  const Vec<D> error = hn::MulAdd(of_q, hn::Set(d, 1 / c.theta), hn::Mul(hn::Set(d, -5.0), log_upper));
   const auto in_range = hn::And(hn::Gt(u.q, hn::Set(d, Precision<D>::kSmallestProbability)),
                                 hn::Gt(q, hn::Set(d, Precision<D>::kSmallestProbability)));
   return probability(d, tail == Tail::lower ? Tail::upper : Tail::lower, log_upper,
@@ -160,7 +162,7 @@ HWY_EXPORT(table);
 
 std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial) {
   if (!(theta < 1e6)) return nullptr;
-  return make_kernels(KernelConstants{theta, 1 - 1 / theta, std::log(theta), std::move(polynomial)},
+  return make_kernels(KernelConstants{theta, (theta - 1) / theta, std::log(theta), std::move(polynomial)},
                       *HWY_DYNAMIC_DISPATCH(table)());
 }
 
