@@ -131,8 +131,9 @@ RowSamples row_samples(const SphereOptions& options, int row) {
   RowSamples samples;
   for (int column = 0; column < options.size; ++column) {
     for (int sub = 0; sub < fine * fine; ++sub) {
-      const double x = ((column + (sub % fine + 0.5) / fine) / half - 1) / options.radius;
-      const double y = (1 - (row + (sub / fine + 0.5) / fine) / half) / options.radius;
+      const int across = sub % fine, down = sub / fine;
+      const double x = ((column + (across + 0.5) / fine) / half - 1) / options.radius;
+      const double y = (1 - (row + (down + 0.5) / fine) / half) / options.radius;
       const double r = std::hypot(x, y);
       if (r >= 1) continue;
       samples.column.push_back(column);

@@ -91,7 +91,7 @@ View view(std::string name, const Brdf& brdf, const MeasuredTable& reference, co
           .albedo = directional_albedo(brdf)};
 }
 
-View view(std::shared_ptr<const MeasuredTable> reference, const SphereOptions& options) {
+View view(const std::shared_ptr<const MeasuredTable>& reference, const SphereOptions& options) {
   const TableBrdf brdf(reference);
   return {.name = provenance_name(*reference),
           .cells = reference->values,

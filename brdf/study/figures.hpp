@@ -26,7 +26,7 @@ struct View {
                         const SphereOptions& options = {});
 
 /// The view of the table itself, named after its provenance.
-[[nodiscard]] View view(std::shared_ptr<const MeasuredTable> reference, const SphereOptions& options = {});
+[[nodiscard]] View view(const std::shared_ptr<const MeasuredTable>& reference, const SphereOptions& options = {});
 
 /// Empirical margins and joint density: shares of a plane's sum over its cells (the paper's Eqs. 9 to 12); zeros for a
 /// black plane.

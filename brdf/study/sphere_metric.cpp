@@ -57,8 +57,8 @@ std::vector<Vec3> disk_normals() {
   std::vector<Vec3> normals;
   for (int i = 0; i < kSize; ++i) {
     for (int j = 0; j < kSize; ++j) {
-      const double x = (j + 0.5) / (kSize / 2) - 1;
-      const double y = 1 - (i + 0.5) / (kSize / 2);
+      const double x = (j + 0.5) / (kSize / 2.0) - 1;
+      const double y = 1 - (i + 0.5) / (kSize / 2.0);
       const double square = x * x + y * y;
       if (square < kDisk) normals.emplace_back(x, y, std::sqrt(1 - square));
     }

@@ -77,9 +77,9 @@ TailDependence tail_dependence(const SymbolicGenerator& generator) {
 }
 
 TauScale::TauScale(Interval domain, Tau tau) : domain_(domain), tau_(std::move(tau)) {
-  constexpr double kFarthest = 30;  // e^30 = 1e13
-  constexpr double kStep = 3;
-  for (double x = -kFarthest; x <= kFarthest; x += kStep) {
+  constexpr int kFarthest = 30;  // e^30 = 1e13
+  constexpr int kStep = 3;
+  for (int x = -kFarthest; x <= kFarthest; x += kStep) {
     const double value = tau_(theta_at(x));
     if (std::isnan(value)) continue;
     x_.push_back(x);
