@@ -26,6 +26,7 @@ struct Search {
 
   void evaluate(const std::vector<double>& z) {
     const Evaluation evaluation = objective(z);
+    if (result.evaluations == 0) result.first = evaluation.value;
     if (result.evaluations++ == 0 || evaluation.better_than(result.best)) {
       result.best = evaluation;
       result.z = z;
@@ -95,6 +96,55 @@ Minimum minimise(const Objective& objective, const std::vector<double>& start, c
   if (search.thrown) std::rethrow_exception(search.thrown);
   search.result.stop = stop_reason(code);
   if (search.result.evaluations == 0) search.evaluate(start);
+  return search.result;
+}
+
+namespace {
+
+struct SmoothSearch {
+  const SmoothObjective& objective;
+  nlopt_opt optimiser;
+  Minimum result = {};
+  std::exception_ptr thrown = {};
+};
+
+double smooth_callback(unsigned n, const double* z, double* slopes, void* data) noexcept {
+  SmoothSearch& search = *static_cast<SmoothSearch*>(data);
+  try {
+    const std::vector<double> at(z, z + n);
+    std::vector<double> gradient(n);
+    const double value = search.objective(at, gradient);
+    if (slopes != nullptr) std::copy(gradient.begin(), gradient.end(), slopes);
+    if (search.result.evaluations == 0) search.result.first = value;
+    if (search.result.evaluations++ == 0 || value < search.result.best.value) {
+      search.result.best.value = value;
+      search.result.z = at;
+    }
+    return value;
+  } catch (...) {
+    search.thrown = std::current_exception();
+    nlopt_force_stop(search.optimiser);
+    return std::numeric_limits<double>::max();
+  }
+}
+
+}  // namespace
+
+Minimum minimise_smooth(const SmoothObjective& objective, const std::vector<double>& start, int max_evaluations) {
+  constexpr unsigned kPairs = 30;
+  constexpr double kTolerance = 1e-9;
+  const auto n = static_cast<unsigned>(start.size());
+  Optimiser optimiser(nlopt_create(NLOPT_LD_LBFGS, n), &nlopt_destroy);
+  SmoothSearch search{.objective = objective, .optimiser = optimiser.get()};
+  nlopt_set_min_objective(optimiser.get(), smooth_callback, &search);
+  nlopt_set_vector_storage(optimiser.get(), kPairs);
+  nlopt_set_ftol_rel(optimiser.get(), kTolerance);
+  nlopt_set_maxeval(optimiser.get(), max_evaluations);
+  std::vector<double> z = start;
+  double value = 0;
+  const nlopt_result code = nlopt_optimize(optimiser.get(), z.data(), &value);
+  if (search.thrown) std::rethrow_exception(search.thrown);
+  search.result.stop = stop_reason(code);
   return search.result;
 }
 

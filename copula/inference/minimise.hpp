@@ -39,6 +39,7 @@ enum class MinimiseStop { tolerance, max_evaluations, failed };
 struct Minimum {
   std::vector<double> z;  ///< the best point evaluated, whatever stopped the search
   Evaluation best;
+  double first = 0;  ///< the value at the start
   int evaluations = 0;
   MinimiseStop stop = MinimiseStop::tolerance;
 };
@@ -51,5 +52,13 @@ struct Minimum {
 /// @throws what the objective throws.
 [[nodiscard]] Minimum minimise(const Objective& objective, const std::vector<double>& start, const Box& box,
                                const MinimiseOptions& options, const Gradient& gradient = {});
+
+/// A smooth function of many variables: returns the value and sets the gradient, of the size of z.
+using SmoothObjective = std::function<double(const std::vector<double>& z, std::vector<double>& gradient)>;
+
+/// Local minimum without bounds, for hundreds of variables and more: L-BFGS (Nocedal 1980) with 30 pairs. Ends when a
+/// step gains less than a relative 1e-9. @throws what the objective throws.
+[[nodiscard]] Minimum minimise_smooth(const SmoothObjective& objective, const std::vector<double>& start,
+                                      int max_evaluations);
 
 }  // namespace sklar
