@@ -1,5 +1,8 @@
 #include "brdf/model/model_io.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
@@ -44,46 +47,124 @@ Value choice(const Json& json, const char* name, std::initializer_list<Value> va
   throw std::invalid_argument("field '" + std::string(name) + "' must be one of " + known + ", found '" + text + "'");
 }
 
-FamilyInfo family_from(const Json& json) {
-  const Json& family = json::field(json, "family");
+FamilyInfo family_from(const Json& family) {
   if (family.is_object()) return families::from_definition(family.dump(), "family");
-  return families::find(json::text(json, "family"));
+  if (!family.is_string()) throw std::invalid_argument("a family must be a name or a definition");
+  return families::find(family.get<std::string>());
 }
 
-StoredBrdf model_from(const Json& json) {
-  json::require_format(json, kFormat, kBrdfModelVersion);
-  if (json::text(json, "mode") != "paper") {
-    throw std::invalid_argument("field 'mode' must be 'paper', found '" + json::text(json, "mode") + "'");
-  }
+Json family_to_json(const std::string& name, const std::string& definition) {
+  return definition.empty() ? Json(name) : Json::parse(definition);
+}
+
+std::shared_ptr<const PaperBrdf> paper_from(const Json& json) {
   std::array<std::vector<PaperSlice>, 3> channels;
   for (std::size_t channel = 0; channel < 3; ++channel) {
     for (const Json& slice : json::array(json, kChannels[channel])) channels[channel].push_back(slice_from(slice));
   }
   const auto measure = choice(json, "measure", {CellMeasure::per_cell, CellMeasure::per_solid_angle});
-  return {.material = json::text(json, "material"),
-          .provenance =
-              choice(json, "provenance",
-                     {Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown}),
-          .method = choice(json, "method",
-                           {FitMethod::least_squares, FitMethod::maximum_likelihood, FitMethod::tau_inversion}),
-          .brdf = std::make_shared<PaperBrdf>(family_from(json), measure, std::move(channels))};
+  return std::make_shared<PaperBrdf>(family_from(json::field(json, "family")), measure, std::move(channels));
+}
+
+void write_paper(const PaperBrdf& brdf, FitMethod method, Json& json) {
+  json["family"] = family_to_json(brdf.family(), brdf.definition());
+  json["method"] = to_text(method);
+  json["measure"] = to_text(brdf.measure());
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    Json& slices = json[kChannels[channel]] = Json::array();
+    for (const PaperSlice& slice : brdf.channels()[channel]) slices.push_back(slice_to_json(slice));
+  }
+}
+
+// The counts of a structure by name.
+template <class Structure, class Action>
+void for_each_count(Structure& structure, const Action& action) {
+  action("components", structure.components);
+  action("half", structure.half);
+  action("difference", structure.difference);
+  action("colour_half", structure.colour_half);
+  action("colour_difference", structure.colour_difference);
+  action("azimuth", structure.azimuth);
+  action("azimuth_difference", structure.azimuth_difference);
+  action("coupling_difference", structure.coupling_difference);
+}
+
+std::array<float, 5> ranges_from(const Json& json, const char* name) {
+  const std::vector<double> values = json::numbers(json, name);
+  std::array<float, 5> result{};
+  if (values.size() != result.size()) {
+    throw std::invalid_argument("field '" + std::string(name) + "' must have " + std::to_string(result.size()) +
+                                " numbers, found " + std::to_string(values.size()));
+  }
+  std::transform(values.begin(), values.end(), result.begin(), [](double x) { return static_cast<float>(x); });
+  return result;
+}
+
+std::shared_ptr<const RefinedBrdf> refined_from(const Json& json) {
+  RefinedStructure structure;
+  const Json& sizes = json::field(json, "structure");
+  for_each_count(structure, [&](const char* name, int& count) { count = json::integer(sizes, name); });
+  structure.width = json::number(sizes, "width");
+  std::vector<FamilyInfo> families;
+  for (const Json& family : json::array(json, "families")) families.push_back(family_from(family));
+  PackedCoefficients packed{
+      .bits = json::integer(json, "bits"), .lowest = ranges_from(json, "lowest"), .step = ranges_from(json, "step")};
+  for (const double level : json::numbers(json, "levels")) {
+    if (!(level >= 0 && level <= 0xFFFF && level == std::floor(level))) {
+      throw std::invalid_argument("field 'levels' must have whole numbers from 0 to 65535, found " + sklar::to_text(level));
+    }
+    packed.levels.push_back(static_cast<std::uint16_t>(level));
+  }
+  return std::make_shared<RefinedBrdf>(structure, std::move(families), std::move(packed));
+}
+
+void write_refined(const RefinedBrdf& brdf, Json& json) {
+  Json& sizes = json["structure"] = Json::object();
+  for_each_count(brdf.structure(), [&](const char* name, int count) { sizes[name] = count; });
+  sizes["width"] = brdf.structure().width;
+  json["families"] = Json::array();
+  for (const FamilyInfo& family : brdf.families()) {
+    json["families"].push_back(family_to_json(family.name, family.definition));
+  }
+  json["bits"] = brdf.coefficients().bits;
+  json["lowest"] = brdf.coefficients().lowest;
+  json["step"] = brdf.coefficients().step;
+  json["levels"] = brdf.coefficients().levels;
+}
+
+StoredBrdf model_from(const Json& json) {
+  json::require_format(json, kFormat, kBrdfModelVersion);
+  StoredBrdf stored{.material = json::text(json, "material"),
+                    .provenance = choice(
+                        json, "provenance",
+                        {Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown}),
+                    .model = {}};
+  const std::string mode = json::text(json, "mode");
+  if (mode == "paper") {
+    stored.method =
+        choice(json, "method", {FitMethod::least_squares, FitMethod::maximum_likelihood, FitMethod::tau_inversion});
+    stored.model = paper_from(json);
+  } else if (mode == "refined") {
+    stored.model = refined_from(json);
+  } else {
+    throw std::invalid_argument("field 'mode' must be 'paper' or 'refined', found '" + mode + "'");
+  }
+  return stored;
 }
 
 }  // namespace
 
 std::string to_json(const StoredBrdf& model) {
-  const PaperBrdf& brdf = *model.brdf;
+  const auto* paper = std::get_if<std::shared_ptr<const PaperBrdf>>(&model.model);
   Json json = {{"format", kFormat},
-               {"version", kBrdfModelVersion},
-               {"mode", "paper"},
+               {"version", paper != nullptr ? 1 : kBrdfModelVersion},
+               {"mode", paper != nullptr ? "paper" : "refined"},
                {"material", model.material},
-               {"provenance", to_text(model.provenance)},
-               {"family", brdf.definition().empty() ? Json(brdf.family()) : Json::parse(brdf.definition())},
-               {"method", to_text(model.method)},
-               {"measure", to_text(brdf.measure())}};
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    Json& slices = json[kChannels[channel]] = Json::array();
-    for (const PaperSlice& slice : brdf.channels()[channel]) slices.push_back(slice_to_json(slice));
+               {"provenance", to_text(model.provenance)}};
+  if (paper != nullptr) {
+    write_paper(**paper, model.method, json);
+  } else {
+    write_refined(*std::get<std::shared_ptr<const RefinedBrdf>>(model.model), json);
   }
   return json.dump() + "\n";
 }

@@ -4,27 +4,37 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "brdf/data/measured_table.hpp"
 #include "brdf/model/paper_brdf.hpp"
+#include "brdf/model/refined_brdf.hpp"
 #include "copula/inference/fit.hpp"
 
 namespace sklar::brdf {
+
+using ModelPtr = std::variant<std::shared_ptr<const PaperBrdf>, std::shared_ptr<const RefinedBrdf>>;
 
 /// A model and what it was fitted to.
 struct StoredBrdf {
   std::string material;
   Provenance provenance = Provenance::unknown;
-  FitMethod method = FitMethod::least_squares;
-  std::shared_ptr<const PaperBrdf> brdf;
+  ModelPtr model;
+  FitMethod method = FitMethod::least_squares;  ///< of the paper's model
+
+  [[nodiscard]] BrdfPtr brdf() const {
+    return std::visit([](const auto& pointer) -> BrdfPtr { return pointer; }, model);
+  }
 };
 
 /// The newest version written and read.
-inline constexpr int kBrdfModelVersion = 1;
+inline constexpr int kBrdfModelVersion = 2;
 
-/// {"format": "sklar brdf", "version": 1, "mode": "paper", "material", "provenance", "family", "method", "measure",
-/// "red": [slices], "green", "blue"} with slices {"theta": [..], "scale", "theta_h": [masses], "theta_d", "phi_d"}.
-/// "family" is a name, or the whole definition of a family given as a formula, so that the model stands alone.
+/// {"format": "sklar brdf", "version", "mode", "material", "provenance", ..}. Version 1, mode "paper": "family",
+/// "method", "measure", "red": [slices], "green", "blue" with slices {"theta": [..], "scale", "theta_h": [masses],
+/// "theta_d", "phi_d"}. Version 2, mode "refined": "structure" with the fields of RefinedStructure, "families" one a
+/// component, "bits", and "lowest", "step" and "levels" of PackedCoefficients. A family is a name, or the whole
+/// definition of a family given as a formula, so that the model stands alone.
 [[nodiscard]] std::string to_json(const StoredBrdf& model);
 
 /// @param source names the text in errors. @throws FileError naming the source and the field: not JSON, not this

@@ -25,18 +25,30 @@ Directions uniform_hemisphere(Rng& rng, Eigen::Index count) {
   return w;
 }
 
+BrdfPtr fit_family(CompareRow& row, const MeasuredTable& table, const FamilyInfo& family,
+                   const FamilyFitOptions& options) {
+  if (const auto* paper = std::get_if<PaperFitOptions>(&options)) {
+    const PaperFit fit = fit_paper(table, family, *paper);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      for (const FitResult& slice : fit.fits[channel]) row.theta[channel].push_back(slice.theta);
+    }
+    return fit.brdf;
+  }
+  RefinedFitOptions refined = std::get<RefinedFitOptions>(options);
+  refined.families = {family};
+  row.mode = "refined";
+  return fit_refined(table, refined).brdf;
+}
+
 // Everything but the sphere, which all models share.
 View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo& family,
-                  const PaperFitOptions& options) {
+                  const FamilyFitOptions& options) {
   const auto start = Clock::now();
-  const PaperFit fit = fit_paper(table, family, options);
+  const BrdfPtr brdf = fit_family(row, table, family, options);
   row.fit_s = seconds_since(start);
-  row.bytes = fit.brdf->bytes();
-  row.eval_ns = evaluation_ns(*fit.brdf);
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    for (const FitResult& slice : fit.fits[channel]) row.theta[channel].push_back(slice.theta);
-  }
-  View result = view(family.title, *fit.brdf, table);
+  row.bytes = brdf->bytes();
+  row.eval_ns = evaluation_ns(*brdf);
+  View result = view(family.title, *brdf, table);
   const CellErrors errors = cell_errors(table, result.cells);
   row.log1p_mae = errors.log1p_mae.mean();
   row.logrel_mae = errors.logrel_mae.mean();
@@ -64,7 +76,7 @@ double evaluation_ns(const Brdf& brdf) {
 }
 
 Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::span<const FamilyInfo* const> families,
-                            const PaperFitOptions& options, const std::filesystem::path& folder,
+                            const FamilyFitOptions& options, const std::filesystem::path& folder,
                             const std::function<void(const std::string&)>& progress) {
   const auto say = [&](const std::string& what) {
     if (progress) progress(table->name + ": " + what);

@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <limits>
+#include <variant>
 
 #include "brdf/model/paper_fit.hpp"
+#include "brdf/model/refined_fit.hpp"
 #include "brdf/study/figures.hpp"
 
 namespace sklar::brdf {
@@ -27,9 +29,12 @@ struct CompareRow {
   double rel_l2 = kNone;
   double sphere_psnr_linear_db = kNone;          ///< mean over channels
   double albedo_max = kNone;                     ///< of albedo_angles() and the channels
-  std::array<std::vector<Theta>, 3> theta = {};  ///< a channel, a slice; empty in black slices
+  std::array<std::vector<Theta>, 3> theta = {};  ///< a channel, a slice; empty in black slices and where refined
   std::string error = {};
 };
+
+/// How a family is fitted: in the paper's mode, or refined with that family in every component.
+using FamilyFitOptions = std::variant<PaperFitOptions, RefinedFitOptions>;
 
 struct Comparison {
   std::vector<CompareRow> rows;                ///< in the order of the families
@@ -38,9 +43,9 @@ struct Comparison {
 
 /// Fits every family, measures it against the table and writes the figures FOLDER/MATERIAL_*.png.
 /// @param progress called with what is being done, for a person to read.
-/// @throws FileError for a folder that cannot be written; what fit_paper throws for a bad table.
+/// @throws FileError for a folder that cannot be written; what fit_paper and fit_refined throw for a bad table.
 [[nodiscard]] Comparison compare_families(std::shared_ptr<const MeasuredTable> table,
-                                          std::span<const FamilyInfo* const> families, const PaperFitOptions& options,
+                                          std::span<const FamilyInfo* const> families, const FamilyFitOptions& options,
                                           const std::filesystem::path& folder,
                                           const std::function<void(const std::string&)>& progress = {});
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,11 +15,12 @@
 namespace sklar::cli {
 namespace {
 
+constexpr double kUsualBytes = 1024;
+
 struct Options {
   std::vector<std::string> materials;
   std::string families = "all";
-  brdf::PaperFitOptions fit;
-  brdf::Provenance provenance = brdf::Provenance::unknown;
+  FitOptions fit;
   std::string folder = "out";
 };
 
@@ -35,18 +37,28 @@ void write_results(const std::filesystem::path& folder, const std::vector<brdf::
   write_file(folder / "results.md", to_markdown(rows));
 }
 
+/// In refined mode the largest structure of the ladder within --max-bytes, for every family.
+brdf::FamilyFitOptions fit_options(const FitOptions& options) {
+  if (!options.is_refined()) return options.paper;
+  brdf::RefinedFitOptions refined = options.refined;
+  const double most = std::isinf(options.budget.max_bytes) ? kUsualBytes : options.budget.max_bytes;
+  refined.structure = brdf::largest_structure(most, refined.bits);
+  return refined;
+}
+
 void run(const Options& options, bool json) {
   const auto families = parse_families(options.families);
-  for (const FamilyInfo* family : families) family->require_dimension(brdf::kPaperDimension);
+  const int dimension = options.fit.is_refined() ? 2 : brdf::kPaperDimension;
+  for (const FamilyInfo* family : families) family->require_dimension(dimension);
   std::vector<std::string> materials = options.materials;
   if (materials.empty()) materials.emplace_back();
   std::vector<brdf::CompareRow> rows;
   std::vector<std::filesystem::path> files;
   const StepLine steps;
   for (const std::string& material : materials) {
-    const auto table = load_table(material, options.provenance);
+    const auto table = load_table(material, options.fit.provenance);
     make_folder(options.folder);  // a refused material leaves none
-    brdf::Comparison comparison = brdf::compare_families(table, families, options.fit, options.folder,
+    brdf::Comparison comparison = brdf::compare_families(table, families, fit_options(options.fit), options.folder,
                                                          [&](const auto& what) { steps.show(what); });
     rows.insert(rows.end(), comparison.rows.begin(), comparison.rows.end());
     files.insert(files.end(), comparison.figures.begin(), comparison.figures.end());
@@ -75,8 +87,11 @@ void add_brdf_compare(CLI::App& parent, Common& common) {
                       "isotropic material files (.binary, .bsdf); omitted: the built-in material");
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
-  add_fit_options(*command, options->fit, options->provenance);
-  finish_command(*command, common, [options, &common] { run(*options, common.json); });
+  add_fit_options(*command, options->fit, "paper");
+  finish_command(*command, common, [command, options, &common] {
+    settle_fit_options(*command, options->fit);
+    run(*options, common.json);
+  });
 }
 
 }  // namespace sklar::cli

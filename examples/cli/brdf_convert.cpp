@@ -17,7 +17,7 @@ namespace {
 std::shared_ptr<const brdf::MeasuredTable> table_of(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".json") return load_table(path);
   const brdf::StoredBrdf model = brdf::read_brdf(path);
-  return std::make_shared<const brdf::MeasuredTable>(brdf::tabulate(*model.brdf, model.material, model.provenance));
+  return std::make_shared<const brdf::MeasuredTable>(brdf::tabulate(*model.brdf(), model.material, model.provenance));
 }
 
 void run(const std::string& in, const std::string& out, bool json) {

@@ -1,32 +1,60 @@
 #include "examples/cli/fit_options.hpp"
 
 #include <map>
-#include <string>
+#include <stdexcept>
 
 namespace sklar::cli {
+namespace {
 
-void add_fit_options(CLI::App& command, brdf::PaperFitOptions& options, brdf::Provenance& provenance) {
-  command.add_option("--mode", "the model: paper")->check(CLI::IsMember({"paper"}))->default_str("paper");
-  command.add_option("--slices", options.slices, "theta_d slices, a divisor of 90")->capture_default_str();
+template <class Value>
+std::map<std::string, Value> by_text(std::initializer_list<Value> values) {
+  std::map<std::string, Value> result;
+  for (const Value value : values) result[std::string(to_text(value))] = value;
+  return result;
+}
+
+}  // namespace
+
+void add_fit_options(CLI::App& command, FitOptions& options, const std::string& default_mode) {
+  using brdf::CellMeasure;
+  using brdf::Provenance;
+  using brdf::RefinedObjective;
+  options.mode = default_mode;
+  command.add_option("--mode", options.mode, "the model: paper or refined")
+      ->check(CLI::IsMember({"paper", "refined"}))
+      ->capture_default_str();
+  command.add_option("--slices", options.paper.slices, "paper: theta_d slices, a divisor of 90")->capture_default_str();
   const std::map<std::string, FitMethod> methods = {
       {"ls", FitMethod::least_squares}, {"ml", FitMethod::maximum_likelihood}, {"tau", FitMethod::tau_inversion}};
-  command.add_option("--method", options.method, "ls (paper Eq. 17), ml (Eq. 16) or tau")
+  command.add_option("--method", options.paper.method, "paper: ls (Eq. 17), ml (Eq. 16) or tau")
       ->transform(CLI::CheckedTransformer(methods))
       ->default_str("ls");
-  const std::map<std::string, brdf::CellMeasure> measures = {{"cell", brdf::CellMeasure::per_cell},
-                                                             {"solid-angle", brdf::CellMeasure::per_solid_angle}};
-  command
-      .add_option("--measure", options.measure, "what a cell's mass is: its value (cell) or that times its solid angle")
-      ->transform(CLI::CheckedTransformer(measures))
+  command.add_option("--objective", options.refined.objective, "refined: what the fit makes small")
+      ->transform(CLI::CheckedTransformer(
+          by_text({RefinedObjective::balanced, RefinedObjective::log1p, RefinedObjective::log_relative,
+                   RefinedObjective::cube_root, RefinedObjective::likelihood, RefinedObjective::image})))
+      ->default_str("balanced");
+  command.add_option("--bits", options.refined.bits, "refined: bits of a stored coefficient, 6 to 16")
+      ->capture_default_str();
+  command.add_option("--max-bytes", options.budget.max_bytes, "refined: bytes of the stored model, at most");
+  command.add_option("--measure", options.measure, "what a cell counts: one (cell) or its solid angle")
+      ->transform(CLI::CheckedTransformer(by_text({CellMeasure::per_cell, CellMeasure::per_solid_angle})))
       ->default_str("cell");
-  std::map<std::string, brdf::Provenance> provenances;
-  for (const auto value : {brdf::Provenance::measured, brdf::Provenance::reconstruction, brdf::Provenance::synthetic,
-                           brdf::Provenance::unknown}) {
-    provenances[to_text(value)] = value;
-  }
-  command.add_option("--provenance", provenance, "what the data of a .binary file are, for titles and tables")
-      ->transform(CLI::CheckedTransformer(provenances))
+  command.add_option("--provenance", options.provenance, "what the data of a .binary file are, for titles and tables")
+      ->transform(CLI::CheckedTransformer(
+          by_text({Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown})))
       ->default_str("unknown");
+}
+
+void settle_fit_options(const CLI::App& command, FitOptions& options) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string& text = option->get_description();
+    const std::string other = options.is_refined() ? "paper" : "refined";
+    if (option->count() == 0 || text.rfind(other + ":", 0) != 0) continue;
+    throw std::invalid_argument(option->get_name() + " belongs to --mode " + other);
+  }
+  options.paper.measure = options.measure;
+  options.refined.measure = options.measure;
 }
 
 }  // namespace sklar::cli

@@ -2,12 +2,30 @@
 /// How a model is fitted: the options that `brdf fit` and `brdf compare` share.
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "brdf/model/paper_fit.hpp"
+#include "brdf/model/refined_fit.hpp"
+#include "brdf/study/budget.hpp"
 
 namespace sklar::cli {
 
-/// Adds --mode, --slices, --method, --measure and --provenance (of MERL-format files, which do not say).
-void add_fit_options(CLI::App& command, brdf::PaperFitOptions& options, brdf::Provenance& provenance);
+struct FitOptions {
+  std::string mode;  ///< "paper" or "refined"
+  brdf::PaperFitOptions paper = {};
+  brdf::RefinedFitOptions refined = {.bits = brdf::kLadderBits};
+  brdf::CellMeasure measure = brdf::CellMeasure::per_cell;
+  brdf::Budget budget = {};
+  brdf::Provenance provenance = brdf::Provenance::unknown;
+
+  [[nodiscard]] bool is_refined() const { return mode == "refined"; }
+};
+
+/// Adds --mode, the options of either mode, --measure, --max-bytes and --provenance (of MERL-format files, which do not
+/// say).
+void add_fit_options(CLI::App& command, FitOptions& options, const std::string& default_mode);
+
+/// Puts --measure where it belongs. @throws std::invalid_argument for an option of the other mode.
+void settle_fit_options(const CLI::App& command, FitOptions& options);
 
 }  // namespace sklar::cli

@@ -143,9 +143,29 @@ TEST_F(BrdfCommand, FitWritesAModelThatTheOthersRead) {
   EXPECT_NEAR(model.values(0, 1) / material.values(0, 1), 1, 0.1);
 }
 
+TEST_F(BrdfCommand, FitChoosesTheModelByTheBudget) {
+  const Result fit = run("brdf fit --family frank --max-bytes 600 -o model.json");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_NE(fit.out.find("| chosen |"), std::string::npos) << fit.out;
+  const auto model = nlohmann::json::parse(read("model.json"));
+  EXPECT_EQ(model["mode"], "refined");
+  EXPECT_EQ(model["families"][0], "frank");
+  EXPECT_EQ(run("brdf albedo model.json").status, 0);
+}
+
+TEST_F(BrdfCommand, CompareTakesTheRefinedMode) {
+  const Result result = run("brdf compare --mode refined --max-bytes 600 --families independence,frank --out out");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto document = nlohmann::json::parse(read("out/results.json"));
+  EXPECT_EQ(document["rows"][1]["mode"], "refined");
+  EXPECT_LT(document["rows"][1]["log1p_mae"].get<double>(), 0.02);
+}
+
 TEST_F(BrdfCommand, FitRefusesWhatItCannotDo) {
   expect_refused("brdf fit --family gaussian -o model.json", "unknown family 'gaussian'; known families: ");
-  expect_refused("brdf fit --family independence --slices 7 -o model.json", "slices");
+  expect_refused("brdf fit --mode paper --family independence --slices 7 -o model.json", "slices");
+  expect_refused("brdf fit --slices 6 -o model.json", "--slices belongs to --mode paper");
+  expect_refused("brdf fit --max-bytes 100 -o model.json", "no model has at most 100 bytes; the smallest has ");
   expect_refused("brdf fit --family independence -o missing/model.json", "missing/model.json: cannot be written");
   expect_refused("brdf fit missing.binary -o model.json", "missing.binary: no such file");
   write("model.json", "{\"format\": ");

@@ -98,7 +98,7 @@ TEST_F(FormulaCommand, TheTableHasAllQuantities) {
 
 TEST_F(FormulaCommand, AFittedReflectanceModelStandsAlone) {
   define("exp(-t^(1/theta))", R"("lowest": 1, "highest": "inf")");
-  ASSERT_EQ(run("brdf fit --method tau --slices 1 --family mine.json -o model.json").status, 0);
+  ASSERT_EQ(run("brdf fit --mode paper --method tau --slices 1 --family mine.json -o model.json").status, 0);
   write("mine.json", "");
   const auto model = nlohmann::json::parse(read("model.json"));
   EXPECT_EQ(model["family"]["name"], "mine");

@@ -142,12 +142,12 @@ TEST(PaperModel, SurvivesItsFileBitForBit) {
   const PaperFit fit = fit_builtin(families::find("clayton"), {.slices = 2, .method = FitMethod::tau_inversion});
   const StoredBrdf stored{.material = "synthetic",
                           .provenance = Provenance::synthetic,
-                          .method = FitMethod::tau_inversion,
-                          .brdf = fit.brdf};
+                          .model = fit.brdf,
+                          .method = FitMethod::tau_inversion};
   const StoredBrdf read = parse_brdf(to_json(stored), "model.json");
   EXPECT_EQ(to_json(read), to_json(stored));
   const Directions wo = random_directions(200, 3), wi = random_directions(200, 4);
-  EXPECT_TRUE((read.brdf->eval(wo, wi) == fit.brdf->eval(wo, wi)).all());
+  EXPECT_TRUE((read.brdf()->eval(wo, wi) == fit.brdf->eval(wo, wi)).all());
 }
 
 TEST(PaperModel, RefusesBadFilesWithOneLine) {
@@ -162,9 +162,9 @@ TEST(PaperModel, RefusesBadFilesWithOneLine) {
   EXPECT_EQ(failure("{"), "model.json: is not valid JSON: byte 2");
   EXPECT_EQ(failure("{}"), "model.json: expected \"format\": \"sklar brdf\"");
   EXPECT_EQ(failure(R"({"format": "sklar brdf", "version": 99})"),
-            "model.json: has version 99; this program reads versions 1 to 1");
+            "model.json: has version 99; this program reads versions 1 to 2");
   const PaperFit fit = fit_builtin(families::find("independence"), {.slices = 1});
-  std::string text = to_json({.material = "m", .brdf = fit.brdf});
+  std::string text = to_json({.material = "m", .model = fit.brdf});
   text.replace(text.find("\"independence\""), 14, "\"gauss\"");
   EXPECT_NE(failure(text).find("unknown family 'gauss'; known families: "), std::string::npos) << failure(text);
 }

@@ -1,0 +1,96 @@
+#include "brdf/model/refined_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "brdf/geometry/coordinates.hpp"
+#include "brdf/model/warp.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+constexpr double kLowestCosine = 0.02;
+constexpr double kEdgeWeight = 0.1;  // of cells with an angle beyond 80 degrees
+constexpr int kFolded = Grid::phi_d / 2;
+
+/// Azimuth bins of the columns at a bin of theta_h and theta_d: evenly spaced, shifted from bin to bin.
+int azimuth_bin(int i, int j, int column) {
+  constexpr int kShifts = 6;
+  const double shift = static_cast<double>((2 * i + j) % kShifts) / kShifts;
+  return static_cast<int>((column + shift) * kFolded / kLossColumns);
+}
+
+struct Filler {
+  const MeasuredTable& table;
+  CellMeasure measure;
+  double width, edge_cosine;
+
+  /// One column; returns its weight.
+  double fill(LossSlice& slice, int i, int j, int column) const {
+    const int k = azimuth_bin(i, j, column);
+    const auto one = static_cast<std::size_t>(Grid::index(i, j, k));
+    const auto other = static_cast<std::size_t>(Grid::index(i, j, Grid::phi_d - 1 - k));
+    const int valid = table.valid[one] + table.valid[other];
+    const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+    const double lowest = std::min(pair.wi.z(), pair.wo.z());
+    if (valid == 0 || lowest < kLowestCosine) return 0;
+    const auto at = static_cast<std::size_t>(i * kLossColumns + column);
+    for (std::size_t c = 0; c < 3; ++c) {
+      slice.measured[c][at] = static_cast<float>((table.values[c][one] + table.values[c][other]) / valid);
+    }
+    slice.cos_i[at] = static_cast<float>(pair.wi.z());
+    slice.cos_o[at] = static_cast<float>(pair.wo.z());
+    slice.azimuth[at] = static_cast<float>(warp(width, pair.wo, pair.wi).azimuth);
+    double weight = valid / 2.0 * (lowest >= edge_cosine ? 1 : kEdgeWeight);
+    if (measure == CellMeasure::per_solid_angle) weight *= cell_measure(i, j);
+    slice.weight[at] = static_cast<float>(weight);
+    return weight;
+  }
+};
+
+/// Values so small that no measure of error would see them are brought to a mean of 0.1.
+double scale_of(const MeasuredTable& table) {
+  constexpr double kTiny = 1e-3, kOrdinary = 0.1;
+  double sum = 0;
+  for (const auto& plane : table.values) {
+    for (const double value : plane) sum += value;
+  }
+  const double mean = sum / (3.0 * static_cast<double>(table.valid_cells()));
+  return mean > 0 && mean < kTiny ? kOrdinary / mean : 1;
+}
+
+}  // namespace
+
+RefinedCells refined_cells(const MeasuredTable& table, CellMeasure measure, double width) {
+  require_table("fit_refined", table);
+  RefinedCells cells{.slices = std::vector<LossSlice>(Grid::theta_d),
+                     .half = Eigen::ArrayXd(Grid::theta_h),
+                     .difference = Eigen::ArrayXd(Grid::theta_d),
+                     .scale = scale_of(table)};
+  const Filler filler{table, measure, width, std::cos(80 * std::numbers::pi / 180)};
+  for (int i = 0; i < Grid::theta_h; ++i) {
+    const DirectionPair pair = directions({Grid::theta_h_centre(i), 0, 0});
+    cells.half(i) = warp(width, pair.wo, pair.wi).half;
+  }
+  for (int j = 0; j < Grid::theta_d; ++j) {
+    const DirectionPair pair = directions({0, Grid::theta_d_centre(j), 0});
+    cells.difference(j) = warp(width, pair.wo, pair.wi).difference;
+    LossSlice& slice = cells.slices[static_cast<std::size_t>(j)];
+    for (int i = 0; i < Grid::theta_h; ++i) {
+      for (int column = 0; column < kLossColumns; ++column) {
+        cells.total_weight += 3 * filler.fill(slice, i, j, column);
+      }
+    }
+    for (auto& plane : slice.measured) {
+      for (float& value : plane) value *= static_cast<float>(cells.scale);
+    }
+  }
+  if (!(cells.total_weight > 0)) {
+    throw std::invalid_argument("fit_refined: table '" + table.name + "' has no valid cell above the horizon");
+  }
+  return cells;
+}
+
+}  // namespace sklar::brdf

@@ -1,0 +1,45 @@
+#pragma once
+/// Fitting a refined model to a measured table.
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "brdf/data/measured_table.hpp"
+#include "brdf/model/paper_brdf.hpp"
+#include "brdf/model/refined_brdf.hpp"
+#include "brdf/progress.hpp"
+
+namespace sklar::brdf {
+
+/// What a fit makes small; see LossWeights. balanced is 4 log1p + log_relative + 2 image, so that cells and
+/// pictures both count.
+enum class RefinedObjective { balanced, log1p, log_relative, cube_root, likelihood, image };
+[[nodiscard]] std::string_view to_text(RefinedObjective objective);
+
+struct RefinedFitOptions {
+  RefinedStructure structure = {};
+  std::vector<FamilyInfo> families = {};  ///< one for all components or one a component; none is independence
+  RefinedObjective objective = RefinedObjective::balanced;
+  CellMeasure measure = CellMeasure::per_cell;
+  int bits = 16;          ///< of a stored coefficient, 6 to 16
+  int evaluations = 800;  ///< of the objective, at most
+};
+
+struct RefinedFit {
+  std::shared_ptr<const RefinedBrdf> brdf;
+  double start = 0;      ///< objective, mean over cells and channels, at the start
+  double objective = 0;  ///< and at the end, before the coefficients are rounded
+  int evaluations = 0;
+  bool converged = false;  ///< whether the last search ended before its share of the evaluations
+};
+
+/// All coefficients together, by L-BFGS with exact gradients, in stages in which the absolute values of the objective
+/// become sharper. Only valid cells count; those with an angle beyond 80 degrees a tenth, those with a cosine below
+/// 0.02 not at all. Deterministic, whatever the number of threads.
+/// @throws std::invalid_argument for options out of range or a table that fails require_table or has no valid cell with
+/// both angles at most 80 degrees.
+[[nodiscard]] RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& options = {},
+                                     const Progress& progress = {});
+
+}  // namespace sklar::brdf

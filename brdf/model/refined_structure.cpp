@@ -1,0 +1,45 @@
+#include "brdf/model/refined_structure.hpp"
+
+#include <stdexcept>
+
+#include "brdf/model/spline.hpp"
+#include "copula/error.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+void require_count(const char* field, int value, int lowest, int highest) {
+  if (value >= lowest && value <= highest) return;
+  throw std::invalid_argument("refined model: " + std::string(field) + " is " + std::to_string(value) +
+                              ", allowed are " + std::to_string(lowest) + " to " + std::to_string(highest));
+}
+
+}  // namespace
+
+void require_structure(const RefinedStructure& structure) {
+  constexpr int kMost = 128, kHighestDegree = 6;
+  require_count("components", structure.components, 1, kMostComponents);
+  require_count("half", structure.half, kSplineOrder, kMost);
+  require_count("difference", structure.difference, kSplineOrder, kMost);
+  require_count("colour_half", structure.colour_half, kSplineOrder, kMost);
+  require_count("colour_difference", structure.colour_difference, kSplineOrder, kMost);
+  require_count("azimuth", structure.azimuth, 0, kHighestDegree);
+  require_count("azimuth_difference", structure.azimuth_difference, kSplineOrder, kMost);
+  require_count("coupling_difference", structure.coupling_difference, kSplineOrder, kMost);
+  if (!(structure.width > 0 && structure.width <= 100)) {
+    throw std::invalid_argument("refined model: width is " + sklar::to_text(structure.width) + ", allowed are (0, 100]");
+  }
+}
+
+RefinedLayout::RefinedLayout(const RefinedStructure& structure, const std::vector<bool>& coupled) : first_{0} {
+  const int colour = structure.colour_half * structure.colour_difference;
+  for (const bool copula : coupled) {
+    for (const int count :
+         {structure.half * structure.difference, colour, colour, structure.azimuth * structure.azimuth_difference,
+          copula ? structure.coupling_difference : 0}) {
+      first_.push_back(first_.back() + count);
+    }
+  }
+}
+
+}  // namespace sklar::brdf

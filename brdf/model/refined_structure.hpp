@@ -1,0 +1,55 @@
+#pragma once
+/// The size of a refined model and where its coefficients stand.
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sklar::brdf {
+
+/// How many coefficients of each kind a model has; half, difference and azimuth are the axes of Warped.
+struct RefinedStructure {
+  int components = 6;           ///< 1 to kMostComponents
+  int half = 20;                ///< spline coefficients of a component's log density along half, 4 to 128
+  int difference = 12;          ///< and along difference, 4 to 128
+  int colour_half = 4;          ///< of log red / green and log blue / green
+  int colour_difference = 6;    ///<
+  int azimuth = 4;              ///< degree of the Bernstein polynomials in azimuth, 0 to 6
+  int azimuth_difference = 8;   ///< spline coefficients of each of its coefficients along difference
+  int coupling_difference = 6;  ///< spline coefficients of the dependence along difference, where there is a copula
+  double width = 0.05;          ///< of warp, in (0, 100]
+
+  friend bool operator==(const RefinedStructure&, const RefinedStructure&) = default;
+};
+
+inline constexpr int kMostComponents = 8;
+
+/// @throws std::invalid_argument naming the field, its value and what is allowed.
+void require_structure(const RefinedStructure& structure);
+
+/// The parts of a component's coefficients. Matrices are column-major: half x difference, azimuth (Bernstein
+/// polynomials 1 to degree) x azimuth_difference.
+enum class RefinedPart { shape, red, blue, azimuth, coupling };
+inline constexpr std::array<RefinedPart, 5> kRefinedParts = {RefinedPart::shape, RefinedPart::red, RefinedPart::blue,
+                                                             RefinedPart::azimuth, RefinedPart::coupling};
+
+/// Component after component, part after part.
+class RefinedLayout {
+ public:
+  /// @param coupled one entry a component: whether it has a copula other than independence.
+  RefinedLayout(const RefinedStructure& structure, const std::vector<bool>& coupled);
+
+  [[nodiscard]] int size() const { return first_.back(); }
+  [[nodiscard]] int first(int component, RefinedPart part) const { return first_[index(component, part)]; }
+  [[nodiscard]] int count(int component, RefinedPart part) const {
+    return first_[index(component, part) + 1] - first_[index(component, part)];
+  }
+
+ private:
+  static std::size_t index(int component, RefinedPart part) {
+    return kRefinedParts.size() * static_cast<std::size_t>(component) + static_cast<std::size_t>(part);
+  }
+  std::vector<int> first_;
+};
+
+}  // namespace sklar::brdf

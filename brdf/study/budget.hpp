@@ -1,0 +1,57 @@
+#pragma once
+/// The cheapest refined model that meets a budget.
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "brdf/model/refined_fit.hpp"
+
+namespace sklar::brdf {
+
+/// What a model may cost and must reach.
+struct Budget {
+  double max_error = 0;                                        ///< mean log1p_mae over channels; 0 asks for nothing
+  double max_bytes = std::numeric_limits<double>::infinity();  ///< of storage
+  double max_ns = std::numeric_limits<double>::infinity();     ///< an RGB value in a batch, one thread
+};
+
+/// One model of the front.
+struct FrontPoint {
+  RefinedStructure structure = {};
+  RefinedFit fit = {};
+  std::size_t bytes = 0;
+  double log1p_mae = 0, logrel_mae = 0;  ///< CellErrors, mean over channels
+  double eval_ns = 0;                    ///< evaluation_ns
+  double fit_s = 0;
+};
+
+/// Structures from 0.5 to 16 KB, each larger and more exact than the one before; 12 bits a coefficient.
+[[nodiscard]] const std::vector<RefinedStructure>& structure_ladder();
+inline constexpr int kLadderBits = 12;
+
+/// Bytes of a model of this structure. @param coupled whether its components have copulas.
+[[nodiscard]] std::size_t stored_bytes(const RefinedStructure& structure, int bits, bool coupled);
+
+/// The largest of the ladder with at most this many bytes, copulas included.
+/// @throws std::runtime_error naming the smallest where there is none.
+[[nodiscard]] RefinedStructure largest_structure(double max_bytes, int bits);
+
+struct BudgetChoice {
+  std::vector<FrontPoint> front;  ///< in the order of the ladder, what was fitted
+  std::size_t chosen;             ///< index in front
+};
+
+/// With max_error, goes up the ladder and takes the first model that reaches it; else the most exact one within
+/// max_bytes and max_ns. The structure of `options` is not used.
+/// @param progress called with what is being done.
+/// @throws std::invalid_argument for a budget that is not positive; std::runtime_error naming the best model where none
+/// meets it.
+[[nodiscard]] BudgetChoice choose_model(const MeasuredTable& table, const Budget& budget, RefinedFitOptions options,
+                                        const std::function<void(const std::string&)>& progress = {});
+
+/// The front as a Markdown table, the chosen row marked.
+[[nodiscard]] std::string to_markdown(const BudgetChoice& choice);
+
+}  // namespace sklar::brdf

@@ -1,0 +1,284 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "brdf/analytic/synthetic.hpp"
+#include "brdf/model/model_io.hpp"
+#include "brdf/model/refined_fit.hpp"
+#include "brdf/model/refined_problem.hpp"
+#include "brdf/model/spline.hpp"
+#include "brdf/render/hemisphere.hpp"
+#include "brdf/study/budget.hpp"
+#include "brdf/study/metrics.hpp"
+#include "copula/error.hpp"
+#include "copula/random.hpp"
+#include "families/registry.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+constexpr double kSinglePrecision = 3e-5;  // relative, of eval against the value in double
+
+RefinedStructure small() {
+  return {.components = 2,
+          .half = 8,
+          .difference = 6,
+          .colour_half = 4,
+          .colour_difference = 4,
+          .azimuth = 2,
+          .azimuth_difference = 4,
+          .coupling_difference = 4};
+}
+
+RefinedFit quick_fit(const MeasuredTable& table, RefinedFitOptions options = {}) {
+  options.structure = small();
+  options.evaluations = 40;
+  return fit_refined(table, options);
+}
+
+const MeasuredTable& builtin() {
+  static const MeasuredTable kTable = builtin_material();
+  return kTable;
+}
+
+Directions random_hemisphere(Eigen::Index count, std::uint64_t seed) {
+  Rng rng(seed);
+  Directions w(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double z = uniform(rng), phi = 2 * std::numbers::pi * uniform(rng), r = std::sqrt(1 - z * z);
+    w.row(i) << r * std::cos(phi), r * std::sin(phi), z;
+  }
+  return w;
+}
+
+double log1p_mae(const MeasuredTable& table, const Brdf& brdf) {
+  return cell_errors(table, predict(brdf, table)).log1p_mae.mean();
+}
+
+TEST(Spline, WeightsSumToOneAndFollowPolynomialsOfDegreeThree) {
+  constexpr int kCount = 9;
+  constexpr double kTolerance = 1e-14;
+  for (const double x : {0.0, 1e-9, 0.3, 0.5, 0.999, 1.0}) {
+    const SplineWeights w = spline_weights(x, kCount);
+    EXPECT_GE(w.first, 0);
+    EXPECT_LE(w.first + kSplineOrder, kCount);
+    double sum = 0, line = 0;
+    for (int i = 0; i < kSplineOrder; ++i) {
+      const double weight = w.weight[static_cast<std::size_t>(i)];
+      EXPECT_GE(weight, 0);
+      sum += weight;
+      line += weight * (w.first + i - 1) / (kCount - 3);  // the coefficient of x is the middle of its spline
+    }
+    EXPECT_NEAR(sum, 1, kTolerance);
+    EXPECT_NEAR(line, x, kTolerance);
+  }
+}
+
+TEST(Spline, BernsteinPolynomialsAsPowers) {
+  const Eigen::MatrixXd powers = bernstein_powers(3);
+  const double z = 0.3;
+  const Eigen::Vector3d at = powers.transpose() * Eigen::Vector3d(z, z * z, z * z * z);
+  EXPECT_NEAR(at(0), 3 * z * 0.7 * 0.7, 1e-15);
+  EXPECT_NEAR(at(1), 3 * z * z * 0.7, 1e-15);
+  EXPECT_NEAR(at(2), z * z * z, 1e-15);
+}
+
+TEST(Warp, IsReciprocalToTheBitAndInTheUnitCube) {
+  const Directions wo = random_hemisphere(2000, 1), wi = random_hemisphere(2000, 2);
+  for (Eigen::Index i = 0; i < wo.rows(); ++i) {
+    const Warped a = warp(0.05, wo.row(i), wi.row(i)), b = warp(0.05, wi.row(i), wo.row(i));
+    EXPECT_EQ(a.half, b.half);
+    EXPECT_EQ(a.difference, b.difference);
+    EXPECT_EQ(a.azimuth, b.azimuth);
+    for (const double x : {a.half, a.difference, a.azimuth}) {
+      EXPECT_GE(x, 0);
+      EXPECT_LE(x, 1);
+    }
+  }
+  const Warped normal = warp(0.05, Vec3(0, 0, 1), Vec3(0, 0, 1));
+  EXPECT_EQ(normal.half, 0);
+  EXPECT_EQ(normal.difference, 0);
+  EXPECT_EQ(normal.azimuth, 0);
+}
+
+TEST(RefinedProblem, GradientIsThatOfTheObjective) {
+  constexpr double kStep = 2e-3,
+                   kTolerance = 0.01;  // relative to the largest slope; the objective is in single precision
+  RefinedStructure structure = small();
+  for (const char* name : {"independence", "frank", "clayton@180", "gumbel"}) {
+    const FamilyInfo& family = families::resolve(name);
+    const RefinedProblem problem(structure, {family, family},
+                                 refined_cells(builtin(), CellMeasure::per_cell, structure.width));
+    std::vector<double> x = problem.start();
+    Rng rng(3);
+    for (double& value : x) value += 0.3 * (uniform(rng) - 0.5);
+    for (const LossWeights& weights : {LossWeights{.log1p = 4, .log_relative = 1, .softness = 0.1F},
+                                       LossWeights{.cube_root = 1}, LossWeights{.likelihood = 1, .image = 1}}) {
+      std::vector<double> gradient, unused;
+      (void)problem.evaluate(weights, x, gradient);
+      double largest = 0;
+      for (const double slope : gradient) largest = std::max(largest, std::abs(slope));
+      for (std::size_t i = 0; i < x.size(); i += 13) {
+        std::vector<double> up = x, down = x;
+        up[i] += kStep;
+        down[i] -= kStep;
+        const double slope =
+            (problem.evaluate(weights, up, unused) - problem.evaluate(weights, down, unused)) / (2 * kStep);
+        EXPECT_NEAR(gradient[i], slope, kTolerance * largest) << name << " coefficient " << i;
+      }
+    }
+  }
+}
+
+TEST(RefinedModel, BeatsThePapersModelInATwentiethOfItsSize) {
+  const RefinedFit fit = fit_refined(builtin(), {.structure = small(), .evaluations = 200});
+  EXPECT_LT(fit.objective, fit.start);
+  EXPECT_LT(fit.brdf->bytes(), 1000U);
+  EXPECT_LT(log1p_mae(builtin(), *fit.brdf), 0.007);  // the paper's, 20 KB: 0.0083
+}
+
+TEST(RefinedModel, IsReciprocalPositiveFiniteAndTheSameInABatch) {
+  const RefinedFit fit = quick_fit(builtin(), {.families = {families::find("frank")}});
+  const RefinedBrdf& brdf = *fit.brdf;
+  Directions wo = random_hemisphere(500, 4), wi = random_hemisphere(500, 5);
+  wo.row(0) << 0, 0, 1;
+  wi.row(0) << 0, 0, 1;
+  wo.row(1) << std::sqrt(1 - 1e-12), 0, 1e-6;
+  wi.row(1) << -std::sqrt(1 - 1e-12), 0, 1e-6;
+  wo.row(2) << 0.6, 0, -0.8;
+  const RgbRows forth = brdf.eval(wo, wi), back = brdf.eval(wi, wo);
+  EXPECT_TRUE((forth == back).all());
+  EXPECT_TRUE(forth.isFinite().all());
+  EXPECT_TRUE((forth.row(2) == 0).all()) << "below the horizon";
+  for (Eigen::Index i = 0; i < wo.rows(); ++i) {
+    if (i == 2) continue;
+    EXPECT_GT(forth.row(i).minCoeff(), 0);
+    const Rgb one = brdf.eval(Vec3(wo.row(i)), Vec3(wi.row(i)));
+    EXPECT_TRUE((one == forth.row(i).transpose()).all());
+    const Rgb exact = brdf.at(warp(brdf.structure().width, wo.row(i), wi.row(i)));
+    EXPECT_LT(((one - exact) / exact).abs().maxCoeff(), kSinglePrecision) << i;
+  }
+}
+
+TEST(RefinedModel, DoesNotDependOnTheNumberOfThreads) {
+  const RefinedFit many = quick_fit(builtin(), {.families = {families::find("frank")}});
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const RefinedFit single = quick_fit(builtin(), {.families = {families::find("frank")}});
+  EXPECT_EQ(many.brdf->coefficients().levels, single.brdf->coefficients().levels);
+}
+
+TEST(RefinedModel, CouplesByAnyFamilyThatTauDetermines) {
+  for (const char* name : {"frank", "clayton", "gumbel@90", "joe", "amh"}) {
+    const RefinedFit fit = quick_fit(builtin(), {.families = {families::resolve(name)}});
+    for (int k = 0; k < 2; ++k) EXPECT_LE(std::abs(fit.brdf->tau(k, 0.5)), 0.81) << name;
+    EXPECT_TRUE(std::isfinite(fit.objective)) << name;
+  }
+  const std::string bb1 = SKLAR_EXAMPLE_FAMILIES "/bb1.json";
+  EXPECT_THROW((void)quick_fit(builtin(), {.families = {families::resolve(bb1)}}), std::invalid_argument);
+}
+
+TEST(RefinedModel, FitsDirtyData) {
+  const auto fits = [](const char* what, auto&& damage) {
+    MeasuredTable table = builtin();
+    damage(table);
+    const RefinedFit fit = quick_fit(table);
+    EXPECT_LT(fit.objective, fit.start) << what;
+    const RgbRows values = fit.brdf->eval(random_hemisphere(200, 6), random_hemisphere(200, 7));
+    EXPECT_TRUE(values.isFinite().all() && (values >= 0).all()) << what;
+    return log1p_mae(builtin(), *fit.brdf);
+  };
+  const auto mask = [](MeasuredTable& table, auto&& masked) {
+    for (int n = 0; n < Grid::cells; ++n) {
+      const auto cell = static_cast<std::size_t>(n);
+      if (!masked(n)) continue;
+      table.valid[cell] = 0;
+      for (auto& plane : table.values) plane[cell] = 0;
+    }
+  };
+  const double whole = fits("whole", [](MeasuredTable&) {});
+  Rng rng(8);
+  EXPECT_LT(fits("half missing", [&](auto& table) { mask(table, [&](int) { return uniform(rng) < 0.5; }); }),
+            2 * whole);
+  EXPECT_LT(fits("an empty slice",
+                 [&](auto& table) { mask(table, [](int n) { return n / Grid::phi_d % Grid::theta_d == 40; }); }),
+            2 * whole);
+  EXPECT_LT(
+      fits("a spike", [](auto& table) { table.values[1][static_cast<std::size_t>(Grid::index(30, 20, 80))] = 1e6; }),
+      2 * whole);
+  fits("all equal", [](auto& table) {
+    for (auto& plane : table.values) {
+      for (std::size_t n = 0; n < plane.size(); ++n) plane[n] = table.valid[n] != 0 ? 0.25 : 0;
+    }
+  });
+  fits("a black channel", [](auto& table) { std::fill(table.values[2].begin(), table.values[2].end(), 0.0); });
+}
+
+TEST(RefinedModel, FollowsTinyValues) {
+  MeasuredTable table = builtin();
+  for (auto& plane : table.values) {
+    for (double& value : plane) value *= 1e-12;
+  }
+  const RefinedFit tiny = quick_fit(table);
+  const Vec3 wo(0, 0.6, 0.8), wi(0.6, 0, 0.8);
+  const Rgb ratio = tiny.brdf->eval(wo, wi) / quick_fit(builtin()).brdf->eval(wo, wi);
+  EXPECT_NEAR(ratio[1] * 1e12, 1, 0.2);
+}
+
+TEST(RefinedModel, SurvivesItsFileBitForBit) {
+  const RefinedFit fit = quick_fit(builtin(), {.families = {families::find("frank")}, .bits = 12});
+  const StoredBrdf stored{.material = "synthetic", .provenance = Provenance::synthetic, .model = fit.brdf};
+  const StoredBrdf read = parse_brdf(to_json(stored), "model.json");
+  EXPECT_EQ(to_json(read), to_json(stored));
+  const Directions wo = random_hemisphere(100, 9), wi = random_hemisphere(100, 10);
+  EXPECT_TRUE((read.brdf()->eval(wo, wi) == fit.brdf->eval(wo, wi)).all());
+  std::string text = to_json(stored);
+  text.replace(text.find("\"bits\":12"), 9, "\"bits\":11");
+  EXPECT_THROW((void)parse_brdf(text, "model.json"), FileError);
+}
+
+TEST(RefinedModel, FewerBitsCostLittleError) {
+  const double fine = log1p_mae(builtin(), *quick_fit(builtin(), {.bits = 16}).brdf);
+  const RefinedFit coarse = quick_fit(builtin(), {.bits = 12});
+  EXPECT_LT(log1p_mae(builtin(), *coarse.brdf), 1.1 * fine);
+  EXPECT_LT(coarse.brdf->bytes(), 0.8 * static_cast<double>(quick_fit(builtin(), {.bits = 16}).brdf->bytes()));
+}
+
+TEST(RefinedModel, RefusesBadArguments) {
+  RefinedFitOptions options;
+  options.structure.components = 9;
+  EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  options.structure = {.width = 0};
+  EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  options = {.families = {families::find("frank"), families::find("frank")}};
+  EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  EXPECT_THROW((void)fit_refined(MeasuredTable{}), std::invalid_argument);
+  EXPECT_THROW((void)RefinedBrdf(small(), {}, {}), std::invalid_argument);
+}
+
+TEST(Budget, TakesTheSmallestModelThatIsGoodEnough) {
+  const RefinedFitOptions options{.bits = kLadderBits, .evaluations = 40};
+  const BudgetChoice choice = choose_model(builtin(), {.max_error = 0.02}, options);
+  EXPECT_EQ(choice.chosen, choice.front.size() - 1);
+  EXPECT_LE(choice.front[choice.chosen].log1p_mae, 0.02);
+  EXPECT_NE(to_markdown(choice).find("chosen"), std::string::npos);
+  const BudgetChoice small_choice = choose_model(builtin(), {.max_bytes = 600}, options);
+  EXPECT_LE(small_choice.front[small_choice.chosen].bytes, 600U);
+  EXPECT_EQ(small_choice.front[0].bytes, stored_bytes(structure_ladder()[0], kLadderBits, false));
+}
+
+TEST(Budget, SaysWhatIsTheBestWhereNoModelMeetsIt) {
+  const RefinedFitOptions options{.bits = kLadderBits, .evaluations = 8};
+  try {
+    (void)choose_model(builtin(), {.max_error = 1e-9, .max_bytes = 600}, options);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no model meets the budget; the most exact one has"), std::string::npos);
+  }
+  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = 10}, options), std::runtime_error);
+  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = -1}, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sklar::brdf
