@@ -1,38 +1,13 @@
 #include "brdf/model/refined_fit.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
 #include "brdf/model/refined_problem.hpp"
-#include "copula/inference/minimise.hpp"
 #include "families/registry.hpp"
 
 namespace sklar::brdf {
 namespace {
-
-constexpr std::array<float, 4> kSoftness = {0.03F, 0.01F, 0.003F, 0.003F};  // of the stages
-
-constexpr float kImage = 2;  // of the relative squared error beside the logarithmic ones
-
-LossWeights weights_of(RefinedObjective objective) {
-  switch (objective) {
-    case RefinedObjective::balanced:
-      return {.log1p = 4, .log_relative = 1, .image = kImage};
-    case RefinedObjective::log1p:
-      return {.log1p = 1};
-    case RefinedObjective::log_relative:
-      return {.log_relative = 1};
-    case RefinedObjective::cube_root:
-      return {.cube_root = 1};
-    case RefinedObjective::likelihood:
-      return {.likelihood = 1};
-    case RefinedObjective::image:
-      return {.image = 1};
-  }
-  return {};
-}
 
 std::vector<FamilyInfo> families_of(const RefinedFitOptions& options) {
   const auto components = static_cast<std::size_t>(options.structure.components);
@@ -43,32 +18,7 @@ std::vector<FamilyInfo> families_of(const RefinedFitOptions& options) {
                               std::to_string(components) + " components; allowed are 0, 1 or one each");
 }
 
-/// One search of the fit, in coordinates in which all second derivatives are about 1.
-Minimum search(const RefinedProblem& problem, const LossWeights& weights, int evaluations,
-               const std::function<void()>& tick, std::vector<double>& x) {
-  const std::vector<double> scale = problem.curvature(weights, x);
-  std::vector<double> at(x.size());
-  const auto objective = [&](const std::vector<double>& z, std::vector<double>& gradient) {
-    for (std::size_t i = 0; i < z.size(); ++i) at[i] = z[i] / scale[i];
-    const double value = problem.evaluate(weights, at, gradient);
-    for (std::size_t i = 0; i < z.size(); ++i) gradient[i] /= scale[i];
-    tick();
-    return value;
-  };
-  std::vector<double> z(x.size());
-  for (std::size_t i = 0; i < z.size(); ++i) z[i] = x[i] * scale[i];
-  Minimum minimum = minimise_smooth(objective, z, evaluations);
-  for (std::size_t i = 0; i < z.size(); ++i) x[i] = minimum.z[i] / scale[i];
-  return minimum;
-}
-
 }  // namespace
-
-std::string_view to_text(RefinedObjective objective) {
-  constexpr std::array<std::string_view, 6> kNames = {"balanced",  "log1p",      "logrel",
-                                                      "cube-root", "likelihood", "image"};
-  return kNames[static_cast<std::size_t>(objective)];
-}
 
 RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& options, const Progress& progress) {
   require_structure(options.structure);
@@ -78,23 +28,11 @@ RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& opti
   const double log_scale = std::log(cells.scale);
   const RefinedProblem problem(options.structure, families, std::move(cells));
   std::vector<double> x = problem.start();
-  RefinedFit fit;
-  LossWeights weights = weights_of(options.objective);
-  ProgressCounter counter(progress, 100);
-  int done = 0, shown = 0;
-  const auto tick = [&] {
-    ++done;
-    for (; shown < std::min(100, 100 * done / options.evaluations); ++shown) counter.step();
-  };
-  const int share = std::max(1, options.evaluations / static_cast<int>(kSoftness.size()));
-  for (std::size_t stage = 0; stage < kSoftness.size(); ++stage) {
-    weights.softness = kSoftness[stage];
-    const Minimum minimum = search(problem, weights, share, tick, x);
-    fit.evaluations += minimum.evaluations;
-    fit.objective = minimum.best.value;
-    fit.converged = minimum.stop == MinimiseStop::tolerance;
-    if (stage == 0) fit.start = minimum.first;
-  }
+  const StagedProblem staged{
+      .evaluate = [&](const auto& weights, const auto& at,
+                      auto& gradient) { return problem.evaluate(weights, at, gradient); },
+      .curvature = [&](const auto& weights, const auto& at) { return problem.curvature(weights, at); }};
+  const StagedSearch search = search_in_stages(staged, options.objective, options.evaluations, progress, x);
   const RefinedLayout& layout = problem.layout();
   for (int k = 0; k < options.structure.components; ++k) {  // the weights of a spline sum to 1
     for (int i = 0; i < layout.count(k, RefinedPart::shape); ++i) {
@@ -102,8 +40,11 @@ RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& opti
     }
   }
   PackedCoefficients packed = pack(layout, options.structure.components, options.bits, x);
-  fit.brdf = std::make_shared<RefinedBrdf>(options.structure, families, std::move(packed));
-  return fit;
+  return {.brdf = std::make_shared<RefinedBrdf>(options.structure, families, std::move(packed)),
+          .start = search.start,
+          .objective = search.objective,
+          .evaluations = search.evaluations,
+          .converged = search.converged};
 }
 
 }  // namespace sklar::brdf

@@ -2,20 +2,15 @@
 /// Fitting a refined model to a measured table.
 
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "brdf/data/measured_table.hpp"
 #include "brdf/model/paper_brdf.hpp"
 #include "brdf/model/refined_brdf.hpp"
+#include "brdf/model/staged_search.hpp"
 #include "brdf/progress.hpp"
 
 namespace sklar::brdf {
-
-/// What a fit makes small; see LossWeights. balanced is 4 log1p + log_relative + 2 image, so that cells and
-/// pictures both count.
-enum class RefinedObjective { balanced, log1p, log_relative, cube_root, likelihood, image };
-[[nodiscard]] std::string_view to_text(RefinedObjective objective);
 
 struct RefinedFitOptions {
   RefinedStructure structure = {};
