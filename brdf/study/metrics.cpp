@@ -62,6 +62,21 @@ Rgb at(const CellValues& values, std::size_t cell) {
   return {values[0][cell], values[1][cell], values[2][cell]};
 }
 
+/// @throws std::invalid_argument if no cell took part.
+CellErrors errors_of(const std::vector<Sums>& rows) {
+  Sums total;
+  for (const Sums& row : rows) total.add(row);  // in order, so that the sum does not depend on threads
+  if (total.cells == 0) {
+    throw std::invalid_argument("cell_errors: the table has no valid cell with both angles at most 80 degrees");
+  }
+  const auto n = static_cast<double>(total.cells);
+  return {.log1p_mae = total.log1p / n,
+          .logrel_mae = total.logrel / n,
+          .cuberoot_rms = (total.cuberoot / n).sqrt(),
+          .rel_l2 = (total.difference == 0).select(Rgb::Zero(), (total.difference / total.power).sqrt()),
+          .cells = total.cells};
+}
+
 }  // namespace
 
 CellValues predict(const Brdf& model, const MeasuredTable& reference) {
@@ -103,17 +118,38 @@ CellErrors cell_errors(const MeasuredTable& reference, const CellValues& predict
       rows[static_cast<std::size_t>(i)].add(at(reference.values, cell), at(predicted, cell), pair.wi.z(), pair.wo.z());
     });
   });
-  Sums total;
-  for (const Sums& row : rows) total.add(row);  // in order, so that the sum does not depend on threads
-  if (total.cells == 0) {
-    throw std::invalid_argument("cell_errors: the table has no valid cell with both angles at most 80 degrees");
-  }
-  const auto n = static_cast<double>(total.cells);
-  return {.log1p_mae = total.log1p / n,
-          .logrel_mae = total.logrel / n,
-          .cuberoot_rms = (total.cuberoot / n).sqrt(),
-          .rel_l2 = (total.difference == 0).select(Rgb::Zero(), (total.difference / total.power).sqrt()),
-          .cells = total.cells};
+  return errors_of(rows);
+}
+
+CellErrors cell_errors(const AnisotropicTable& reference, const Brdf& model) {
+  require_table("cell_errors", reference);
+  const AnisotropicGrid& grid = reference.grid;
+  const double lowest = std::cos(80 * std::numbers::pi / 180);
+  std::vector<Sums> rows(static_cast<std::size_t>(grid.theta_h * grid.stored_phi_h()));
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
+    const int i = static_cast<int>(row) / grid.stored_phi_h(), m = static_cast<int>(row) % grid.stored_phi_h();
+    const Eigen::Index most = grid.theta_d * grid.phi_d;
+    Directions wo(most, 3), wi(most, 3);
+    std::vector<std::size_t> cells;
+    for (int j = 0; j < grid.theta_d; ++j) {
+      for (int k = 0; k < grid.phi_d; ++k) {
+        const std::size_t cell = grid.index(i, m, j, k);
+        const DirectionPair pair = directions4(grid.centre(i, m, j, k));
+        if (!reference.valid[cell] || pair.wi.z() < lowest || pair.wo.z() < lowest) continue;
+        wo.row(static_cast<Eigen::Index>(cells.size())) = pair.wo.transpose().array();
+        wi.row(static_cast<Eigen::Index>(cells.size())) = pair.wi.transpose().array();
+        cells.push_back(cell);
+      }
+    }
+    const auto count = static_cast<Eigen::Index>(cells.size());
+    const RgbRows g = model.eval(wo.topRows(count), wi.topRows(count));
+    for (Eigen::Index n = 0; n < count; ++n) {
+      const std::size_t cell = cells[static_cast<std::size_t>(n)];
+      const Rgb f(reference.values[0][cell], reference.values[1][cell], reference.values[2][cell]);
+      rows[row].add(f, g.row(n).transpose(), wi(n, 2), wo(n, 2));
+    }
+  });
+  return errors_of(rows);
 }
 
 }  // namespace sklar::brdf

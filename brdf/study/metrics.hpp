@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "brdf/data/anisotropic_table.hpp"
 #include "brdf/data/measured_table.hpp"
 
 namespace sklar::brdf {
@@ -25,6 +26,10 @@ struct CellErrors {
 
 /// @throws std::invalid_argument unless both tables are whole and some cell takes part.
 [[nodiscard]] CellErrors cell_errors(const MeasuredTable& reference, const CellValues& predicted);
+
+/// The same for a model against a table over four coordinates, over the cells that it stores. @throws
+/// std::invalid_argument as above.
+[[nodiscard]] CellErrors cell_errors(const AnisotropicTable& reference, const Brdf& model);
 
 /// Radiance toward the viewer at the pixels of the pinned sphere: 96 x 96, orthographic, 6000 distant lights.
 /// n x 3, n = 7208 disk pixels, row by row from the top.
