@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
@@ -82,11 +83,18 @@ void for_each_count(Structure& structure, const Action& action) {
   action("components", structure.components);
   action("half", structure.half);
   action("difference", structure.difference);
+  if constexpr (std::is_same_v<std::remove_const_t<Structure>, AnisotropicStructure>) {
+    action("masking", structure.masking);
+    action("masking_harmonics", structure.masking_harmonics);
+    action("half_harmonics", structure.half_harmonics);
+    action("half_harmonics_degree", structure.half_harmonics_degree);
+  } else {
+    action("coupling_difference", structure.coupling_difference);
+  }
   action("colour_half", structure.colour_half);
   action("colour_difference", structure.colour_difference);
   action("azimuth", structure.azimuth);
   action("azimuth_difference", structure.azimuth_difference);
-  action("coupling_difference", structure.coupling_difference);
 }
 
 std::array<float, 5> ranges_from(const Json& json, const char* name) {
@@ -100,6 +108,28 @@ std::array<float, 5> ranges_from(const Json& json, const char* name) {
   return result;
 }
 
+template <class Packed>
+Packed packed_from(const Json& json) {
+  Packed packed{
+      .bits = json::integer(json, "bits"), .lowest = ranges_from(json, "lowest"), .step = ranges_from(json, "step")};
+  for (const double level : json::numbers(json, "levels")) {
+    if (!(level >= 0 && level <= 0xFFFF && level == std::floor(level))) {
+      throw std::invalid_argument("field 'levels' must have whole numbers from 0 to 65535, found " +
+                                  sklar::to_text(level));
+    }
+    packed.levels.push_back(static_cast<std::uint16_t>(level));
+  }
+  return packed;
+}
+
+template <class Packed>
+void write_packed(const Packed& packed, Json& json) {
+  json["bits"] = packed.bits;
+  json["lowest"] = packed.lowest;
+  json["step"] = packed.step;
+  json["levels"] = packed.levels;
+}
+
 std::shared_ptr<const RefinedBrdf> refined_from(const Json& json) {
   RefinedStructure structure;
   const Json& sizes = json::field(json, "structure");
@@ -107,14 +137,7 @@ std::shared_ptr<const RefinedBrdf> refined_from(const Json& json) {
   structure.width = json::number(sizes, "width");
   std::vector<FamilyInfo> families;
   for (const Json& family : json::array(json, "families")) families.push_back(family_from(family));
-  PackedCoefficients packed{
-      .bits = json::integer(json, "bits"), .lowest = ranges_from(json, "lowest"), .step = ranges_from(json, "step")};
-  for (const double level : json::numbers(json, "levels")) {
-    if (!(level >= 0 && level <= 0xFFFF && level == std::floor(level))) {
-      throw std::invalid_argument("field 'levels' must have whole numbers from 0 to 65535, found " + sklar::to_text(level));
-    }
-    packed.levels.push_back(static_cast<std::uint16_t>(level));
-  }
+  auto packed = packed_from<PackedCoefficients>(json);
   return std::make_shared<RefinedBrdf>(structure, std::move(families), std::move(packed));
 }
 
@@ -126,10 +149,24 @@ void write_refined(const RefinedBrdf& brdf, Json& json) {
   for (const FamilyInfo& family : brdf.families()) {
     json["families"].push_back(family_to_json(family.name, family.definition));
   }
-  json["bits"] = brdf.coefficients().bits;
-  json["lowest"] = brdf.coefficients().lowest;
-  json["step"] = brdf.coefficients().step;
-  json["levels"] = brdf.coefficients().levels;
+  write_packed(brdf.coefficients(), json);
+}
+
+std::shared_ptr<const AnisotropicModel> anisotropic_from(const Json& json) {
+  AnisotropicStructure structure;
+  const Json& sizes = json::field(json, "structure");
+  for_each_count(structure, [&](const char* name, int& count) { count = json::integer(sizes, name); });
+  const Json& tilted = json::field(sizes, "tilted");
+  if (!tilted.is_boolean()) throw std::invalid_argument("field 'tilted' must be true or false");
+  structure.tilted = tilted.get<bool>();
+  return std::make_shared<AnisotropicModel>(structure, packed_from<AnisotropicCoefficients>(json));
+}
+
+void write_anisotropic(const AnisotropicModel& brdf, Json& json) {
+  Json& sizes = json["structure"] = Json::object();
+  for_each_count(brdf.structure(), [&](const char* name, int count) { sizes[name] = count; });
+  sizes["tilted"] = brdf.structure().tilted;
+  write_packed(brdf.coefficients(), json);
 }
 
 StoredBrdf model_from(const Json& json) {
@@ -146,8 +183,10 @@ StoredBrdf model_from(const Json& json) {
     stored.model = paper_from(json);
   } else if (mode == "refined") {
     stored.model = refined_from(json);
+  } else if (mode == "anisotropic") {
+    stored.model = anisotropic_from(json);
   } else {
-    throw std::invalid_argument("field 'mode' must be 'paper' or 'refined', found '" + mode + "'");
+    throw std::invalid_argument("field 'mode' must be 'paper', 'refined' or 'anisotropic', found '" + mode + "'");
   }
   return stored;
 }
@@ -155,16 +194,21 @@ StoredBrdf model_from(const Json& json) {
 }  // namespace
 
 std::string to_json(const StoredBrdf& model) {
-  const auto* paper = std::get_if<std::shared_ptr<const PaperBrdf>>(&model.model);
+  // The oldest version that has the mode, and the mode, by ModelPtr::index().
+  constexpr std::array<std::pair<int, const char*>, std::variant_size_v<ModelPtr>> kModes = {
+      {{1, "paper"}, {2, "refined"}, {3, "anisotropic"}}};
+  const auto& [version, mode] = kModes[model.model.index()];
   Json json = {{"format", kFormat},
-               {"version", paper != nullptr ? 1 : kBrdfModelVersion},
-               {"mode", paper != nullptr ? "paper" : "refined"},
+               {"version", version},
+               {"mode", mode},
                {"material", model.material},
                {"provenance", to_text(model.provenance)}};
-  if (paper != nullptr) {
+  if (const auto* paper = std::get_if<std::shared_ptr<const PaperBrdf>>(&model.model)) {
     write_paper(**paper, model.method, json);
+  } else if (const auto* refined = std::get_if<std::shared_ptr<const RefinedBrdf>>(&model.model)) {
+    write_refined(**refined, json);
   } else {
-    write_refined(*std::get<std::shared_ptr<const RefinedBrdf>>(model.model), json);
+    write_anisotropic(*std::get<std::shared_ptr<const AnisotropicModel>>(model.model), json);
   }
   return json.dump() + "\n";
 }

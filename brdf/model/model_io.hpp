@@ -7,13 +7,15 @@
 #include <variant>
 
 #include "brdf/data/measured_table.hpp"
+#include "brdf/model/anisotropic_model.hpp"
 #include "brdf/model/paper_brdf.hpp"
 #include "brdf/model/refined_brdf.hpp"
 #include "copula/inference/fit.hpp"
 
 namespace sklar::brdf {
 
-using ModelPtr = std::variant<std::shared_ptr<const PaperBrdf>, std::shared_ptr<const RefinedBrdf>>;
+using ModelPtr = std::variant<std::shared_ptr<const PaperBrdf>, std::shared_ptr<const RefinedBrdf>,
+                              std::shared_ptr<const AnisotropicModel>>;
 
 /// A model and what it was fitted to.
 struct StoredBrdf {
@@ -28,17 +30,19 @@ struct StoredBrdf {
 };
 
 /// The newest version written and read.
-inline constexpr int kBrdfModelVersion = 2;
+inline constexpr int kBrdfModelVersion = 3;
 
 /// {"format": "sklar brdf", "version", "mode", "material", "provenance", ..}. Version 1, mode "paper": "family",
 /// "method", "measure", "red": [slices], "green", "blue" with slices {"theta": [..], "scale", "theta_h": [masses],
 /// "theta_d", "phi_d"}. Version 2, mode "refined": "structure" with the fields of RefinedStructure, "families" one a
-/// component, "bits", and "lowest", "step" and "levels" of PackedCoefficients. A family is a name, or the whole
-/// definition of a family given as a formula, so that the model stands alone.
+/// component, "bits", and "lowest", "step" and "levels" of PackedCoefficients. Version 3, mode "anisotropic":
+/// "structure" with the fields of AnisotropicStructure, "bits", "lowest", "step" and "levels" of
+/// AnisotropicCoefficients. A family is a name, or the whole definition of a family given as a formula, so that the
+/// model stands alone.
 [[nodiscard]] std::string to_json(const StoredBrdf& model);
 
 /// @param source names the text in errors. @throws FileError naming the source and the field: not JSON, not this
-/// format, a newer version, a field missing or of the wrong type, an unknown family, values that PaperBrdf refuses.
+/// format, a newer version, a field missing or of the wrong type, an unknown family, values that the model refuses.
 [[nodiscard]] StoredBrdf parse_brdf(std::string_view json, std::string_view source);
 
 /// parse_brdf of a file. @throws FileError also for a missing file or a directory.
