@@ -47,10 +47,10 @@ struct Cdf {
 
 /// All pairs of nodes, azimuth fastest.
 Points grid(const Eigen::ArrayXd& u, const Eigen::ArrayXd& v) {
-  Points points(CouplingLattice::plane, 2);
-  for (int i = 0; i < CouplingLattice::half; ++i) {
-    points.col(0).segment(CouplingLattice::index(i, 0), CouplingLattice::azimuth).setConstant(u(i));
-    points.col(1).segment(CouplingLattice::index(i, 0), CouplingLattice::azimuth) = v;
+  Points points(Lattice::plane, 2);
+  for (int i = 0; i < Lattice::half; ++i) {
+    points.col(0).segment(Lattice::index(i, 0), Lattice::azimuth).setConstant(u(i));
+    points.col(1).segment(Lattice::index(i, 0), Lattice::azimuth) = v;
   }
   return points;
 }
@@ -65,21 +65,24 @@ Column log_density(const FamilyInfo& family, double tau, const Points& points) {
 }
 
 bool is_dense(const FamilyInfo& family, double tau) {
-  const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(CouplingLattice::half, kUniform, 1 - kUniform);
-  const Eigen::ArrayXd v = Eigen::ArrayXd::LinSpaced(CouplingLattice::azimuth, kUniform, 1 - kUniform);
+  const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(Lattice::half, kUniform, 1 - kUniform);
+  const Eigen::ArrayXd v = Eigen::ArrayXd::LinSpaced(Lattice::azimuth, kUniform, 1 - kUniform);
   return log_density(family, tau, grid(u, v)).isFinite().all();
 }
 
 }  // namespace
 
-CouplingBases::CouplingBases(const RefinedStructure& structure) {
-  const Eigen::ArrayXd along = Eigen::ArrayXd::LinSpaced(CouplingLattice::difference, 0, 1);
-  half = spline_basis(Eigen::ArrayXd::LinSpaced(CouplingLattice::half, 0, 1), structure.half);
+LatticeBases::LatticeBases(const RefinedStructure& structure) {
+  const Eigen::ArrayXd along = Eigen::ArrayXd::LinSpaced(Lattice::difference, 0, 1);
+  const Eigen::ArrayXd across = Eigen::ArrayXd::LinSpaced(Lattice::half, 0, 1);
+  half = spline_basis(across, structure.half);
+  colour_half = spline_basis(across, structure.colour_half);
+  colour_difference = spline_basis(along, structure.colour_difference);
   difference = spline_basis(along, structure.difference);
   azimuth_difference = spline_basis(along, structure.azimuth_difference);
   coupling_difference = spline_basis(along, structure.coupling_difference);
-  azimuth.resize(CouplingLattice::azimuth, structure.azimuth);
-  const Eigen::ArrayXd z = Eigen::ArrayXd::LinSpaced(CouplingLattice::azimuth, 0, 1);
+  azimuth.resize(Lattice::azimuth, structure.azimuth);
+  const Eigen::ArrayXd z = Eigen::ArrayXd::LinSpaced(Lattice::azimuth, 0, 1);
   for (int m = 0; m < structure.azimuth; ++m) azimuth.col(m) = z.pow(m + 1);
   azimuth = azimuth * bernstein_powers(structure.azimuth);
 }
@@ -87,7 +90,7 @@ CouplingBases::CouplingBases(const RefinedStructure& structure) {
 CouplingInput coupling_input(const RefinedStructure& structure, const std::vector<double>& shape,
                              const std::vector<double>& azimuth, const std::vector<double>& coupling) {
   using Matrix = Eigen::Map<const Eigen::MatrixXd>;
-  const CouplingBases bases(structure);
+  const LatticeBases bases(structure);
   const Matrix a(shape.data(), structure.half, structure.difference);
   const Matrix p(azimuth.data(), structure.azimuth, structure.azimuth_difference);
   const Eigen::Map<const Eigen::VectorXd> e(coupling.data(), structure.coupling_difference);
@@ -121,8 +124,8 @@ double Coupling::tau_slope(double dependence) const {
 }
 
 CouplingValues Coupling::values(const CouplingInput& input) const {
-  CouplingValues result(CouplingLattice::plane, CouplingLattice::difference);
-  for (int p = 0; p < CouplingLattice::difference; ++p) {
+  CouplingValues result(Lattice::plane, Lattice::difference);
+  for (int p = 0; p < Lattice::difference; ++p) {
     const Cdf u(input.half.col(p)), v(input.azimuth.col(p));
     result.col(p) = log_density(family_, tau(input.dependence(p)), grid(u.at, v.at));
   }
@@ -130,11 +133,10 @@ CouplingValues Coupling::values(const CouplingInput& input) const {
 }
 
 CouplingInput Coupling::gradient(const CouplingInput& input, const CouplingValues& slopes) const {
-  CouplingInput result{Eigen::MatrixXd(CouplingLattice::half, CouplingLattice::difference),
-                       Eigen::MatrixXd(CouplingLattice::azimuth, CouplingLattice::difference),
-                       Eigen::VectorXd(CouplingLattice::difference)};
+  CouplingInput result{Eigen::MatrixXd(Lattice::half, Lattice::difference),
+                       Eigen::MatrixXd(Lattice::azimuth, Lattice::difference), Eigen::VectorXd(Lattice::difference)};
   using Plane = Eigen::Map<Eigen::ArrayXXd>;
-  for (int p = 0; p < CouplingLattice::difference; ++p) {
+  for (int p = 0; p < Lattice::difference; ++p) {
     const Cdf u(input.half.col(p)), v(input.azimuth.col(p));
     const double centre = tau(input.dependence(p));
     const CopulaPtr copula = family_.make(2, family_.theta_from_tau(centre));
@@ -144,9 +146,8 @@ CouplingInput Coupling::gradient(const CouplingInput& input, const CouplingValue
     by_u *= slopes.col(p).array();
     by_v *= slopes.col(p).array();
     const Eigen::ArrayXd u_slopes =
-        Plane(by_u.data(), CouplingLattice::azimuth, CouplingLattice::half).colwise().sum().transpose() / (2 * du);
-    const Eigen::ArrayXd v_slopes =
-        Plane(by_v.data(), CouplingLattice::azimuth, CouplingLattice::half).rowwise().sum() / (2 * dv);
+        Plane(by_u.data(), Lattice::azimuth, Lattice::half).colwise().sum().transpose() / (2 * du);
+    const Eigen::ArrayXd v_slopes = Plane(by_v.data(), Lattice::azimuth, Lattice::half).rowwise().sum() / (2 * dv);
     result.half.col(p) = u.gradient(u_slopes);
     result.azimuth.col(p) = v.gradient(v_slopes);
     const double step = 1e-4 * std::min(centre - lowest_, highest_ - centre);

@@ -1,24 +1,15 @@
 #pragma once
 /// The copula of one component of a refined model: log c(F(half | difference), G(azimuth | difference);
-/// tau(difference)) on a lattice, between whose nodes log c is trilinear.
+/// tau(difference)) at the nodes of the lattice.
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "brdf/model/lattice.hpp"
 #include "brdf/model/refined_structure.hpp"
 #include "copula/family.hpp"
 
 namespace sklar::brdf {
-
-/// Nodes of the lattice at i/(n-1) along each axis of Warped.
-struct CouplingLattice {
-  static constexpr int half = 33;
-  static constexpr int azimuth = 17;
-  static constexpr int difference = 25;
-  static constexpr int plane = half * azimuth;
-
-  static constexpr int index(int half_node, int azimuth_node) { return half_node * azimuth + azimuth_node; }
-};
 
 /// The log margins and the coefficient of the dependence at the nodes.
 struct CouplingInput {
@@ -28,17 +19,17 @@ struct CouplingInput {
 };
 
 /// The splines of the coordinates of the lattice: rows are nodes, columns coefficients.
-struct CouplingBases {
-  explicit CouplingBases(const RefinedStructure& structure);
-  Eigen::MatrixXd half, difference, azimuth, azimuth_difference,
-      coupling_difference;  ///< azimuth: Bernstein polynomials
+struct LatticeBases {
+  explicit LatticeBases(const RefinedStructure& structure);
+  Eigen::MatrixXd half, difference, colour_half, colour_difference, azimuth_difference, coupling_difference;
+  Eigen::MatrixXd azimuth;  ///< Bernstein polynomials
 };
 
 /// What a component's coefficients (in the order of RefinedLayout) are at the nodes.
 [[nodiscard]] CouplingInput coupling_input(const RefinedStructure& structure, const std::vector<double>& shape,
                                            const std::vector<double>& azimuth, const std::vector<double>& coupling);
 
-/// log c, CouplingLattice::plane x difference; and as a gradient the derivatives by the fields of CouplingInput.
+/// log c, Lattice::plane x difference; and as a gradient the derivatives by the fields of CouplingInput.
 using CouplingValues = Eigen::MatrixXd;
 
 /// One family over the lattice. F and G are cdfs of the margins with a share of 1e-4 of uniform, at the middle of the

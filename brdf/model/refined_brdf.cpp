@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 
 #include "brdf/model/coupling.hpp"
+#include "brdf/model/lattice.hpp"
 #include "brdf/model/spline.hpp"
 #include "copula/error.hpp"
 
@@ -21,19 +23,12 @@ std::vector<bool> coupled(const std::vector<FamilyInfo>& families) {
   return result;
 }
 
-/// The matrix of a part in the order of the kernel, with room for every component.
-void interleave(const std::vector<double>& values, int component, std::vector<float>& table) {
-  table.resize(values.size() * kMostComponents);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    table[i * kMostComponents + static_cast<std::size_t>(component)] = static_cast<float>(values[i]);
+/// Puts numbers of a component into a table in the order of the kernel.
+void interleave(const Eigen::Ref<const Eigen::MatrixXd>& values, std::size_t first, std::size_t step,
+                AlignedFloats& table) {
+  for (Eigen::Index j = 0; j < values.cols(); ++j) {
+    for (Eigen::Index i = 0; i < values.rows(); ++i, first += step) table[first] = static_cast<float>(values(i, j));
   }
-}
-
-/// The azimuth part as coefficients of powers.
-std::vector<double> powers_of(const RefinedStructure& structure, const std::vector<double>& azimuth) {
-  const Eigen::Map<const Eigen::MatrixXd> values(azimuth.data(), structure.azimuth, structure.azimuth_difference);
-  const Eigen::MatrixXd powers = bernstein_powers(structure.azimuth) * values;
-  return {powers.data(), powers.data() + powers.size()};
 }
 
 /// A column-major tensor spline.
@@ -48,23 +43,9 @@ double tensor(const std::vector<double>& values, int rows, const SplineWeights& 
   return sum;
 }
 
-/// Trilinear between the nodes of the lattice.
-double lattice(const RefinedTables& tables, int component, const Warped& w) {
-  const auto split = [](double x, int nodes) {
-    const int first = std::min(static_cast<int>(x * (nodes - 1)), nodes - 2);
-    return std::pair(first, x * (nodes - 1) - first);
-  };
-  const auto [m, x] = split(w.half, CouplingLattice::half);
-  const auto [n, z] = split(w.azimuth, CouplingLattice::azimuth);
-  const auto [p, y] = split(w.difference, CouplingLattice::difference);
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int a = corner & 1, b = corner >> 1 & 1, c = corner >> 2;
-    const int node = (p + c) * CouplingLattice::plane + CouplingLattice::index(m + a, n + b);
-    const double weight = (a == 1 ? x : 1 - x) * (b == 1 ? z : 1 - z) * (c == 1 ? y : 1 - y);
-    sum += weight * static_cast<double>(tables.coupling[static_cast<std::size_t>(node * kMostComponents + component)]);
-  }
-  return sum;
+/// Of two neighbours on an axis.
+double mixed(const Between& between, const std::function<double(int)>& at) {
+  return (1 - between.share) * at(between.low) + between.share * at(between.high);
 }
 
 }  // namespace
@@ -106,10 +87,7 @@ RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyIn
       layout_((require_structure(structure), structure), coupled(families_)),
       tables_{.half = structure.half,
               .difference = structure.difference,
-              .colour_half = structure.colour_half,
-              .colour_difference = structure.colour_difference,
-              .azimuth = structure.azimuth,
-              .azimuth_difference = structure.azimuth_difference,
+              .powers_pairs = (structure.azimuth + 1) / 2,
               .width = static_cast<float>(structure.width)} {
   constexpr int kFewestBits = 6, kMostBits = 16;
   const auto refuse = [](const std::string& what) { throw std::invalid_argument("refined model: " + what); };
@@ -130,8 +108,7 @@ RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyIn
       refuse("a range that is not finite");
     }
   }
-  tables_.shape.assign(static_cast<std::size_t>(structure.half * structure.difference) * kMostComponents, kAbsent);
-  for (int k = 0; k < structure.components; ++k) expand_component(k);
+  expand();
   require_bounded();
 }
 
@@ -147,18 +124,50 @@ std::vector<double> RefinedBrdf::part(int component, RefinedPart part) const {
   return values;
 }
 
+void RefinedBrdf::expand() {
+  constexpr auto kMost = static_cast<std::size_t>(kMostComponents);
+  constexpr auto kColours = 2 * kMost * Lattice::half * Lattice::difference;
+  tables_.shape.assign(static_cast<std::size_t>(structure_.half * structure_.difference) * kMost, kAbsent);
+  tables_.colour.assign(kColours, 0);
+  tables_.powers.assign(static_cast<std::size_t>(even_azimuth()) * kMost * Lattice::difference, 0);
+  if (std::any_of(families_.begin(), families_.end(), [](const auto& family) { return !family.parameters.empty(); })) {
+    tables_.coupling.assign(kMost * Lattice::plane * Lattice::difference, 0);
+  }
+  for (int k = 0; k < structure_.components; ++k) expand_component(k);
+}
+
 void RefinedBrdf::expand_component(int component) {
+  using Matrix = Eigen::MatrixXd;
+  using MatrixIn = Eigen::Map<const Matrix>;
+  constexpr auto kMost = static_cast<std::size_t>(kMostComponents);
+  const auto k = static_cast<std::size_t>(component);
   const std::vector<double> shape = part(component, RefinedPart::shape);
+  interleave(MatrixIn(shape.data(), structure_.half, structure_.difference), k, kMost, tables_.shape);
+
+  const Eigen::ArrayXd half = Eigen::ArrayXd::LinSpaced(Lattice::half, 0, 1);
+  const Eigen::ArrayXd difference = Eigen::ArrayXd::LinSpaced(Lattice::difference, 0, 1);
+  const auto colour = [&](RefinedPart channel, std::size_t first) {
+    const std::vector<double> values = part(component, channel);
+    const MatrixIn logs(values.data(), structure_.colour_half, structure_.colour_difference);
+    const Matrix at_nodes = spline_basis(half, structure_.colour_half) * logs *
+                            spline_basis(difference, structure_.colour_difference).transpose();
+    interleave(at_nodes.array().exp(), first, 2 * kMost, tables_.colour);
+  };
+  colour(RefinedPart::red, k);
+  colour(RefinedPart::blue, kMost + k);
+
   const std::vector<double> azimuth = part(component, RefinedPart::azimuth);
-  interleave(shape, component, tables_.shape);
-  interleave(part(component, RefinedPart::red), component, tables_.red);
-  interleave(part(component, RefinedPart::blue), component, tables_.blue);
-  interleave(powers_of(structure_, azimuth), component, tables_.powers);
-  const FamilyInfo& family = families_[static_cast<std::size_t>(component)];
+  Matrix powers = Matrix::Zero(even_azimuth(), Lattice::difference);
+  powers.topRows(structure_.azimuth) = bernstein_powers(structure_.azimuth) *
+                                       MatrixIn(azimuth.data(), structure_.azimuth, structure_.azimuth_difference) *
+                                       spline_basis(difference, structure_.azimuth_difference).transpose();
+  interleave(powers, k, kMost, tables_.powers);
+
+  const FamilyInfo& family = families_[k];
   if (family.parameters.empty()) return;
   const CouplingValues log_c =
       Coupling(family).values(coupling_input(structure_, shape, azimuth, part(component, RefinedPart::coupling)));
-  interleave(std::vector<double>(log_c.data(), log_c.data() + log_c.size()), component, tables_.coupling);
+  interleave(log_c, k, kMost, tables_.coupling);
 }
 
 void RefinedBrdf::require_bounded() const {
@@ -195,7 +204,6 @@ void RefinedBrdf::require_bounded() const {
 }
 
 Rgb RefinedBrdf::eval(const Vec3& wo, const Vec3& wi) const {
-  if (!(wo.z() > 0 && wi.z() > 0)) return Rgb::Zero();
   Rgb result;
   evaluate_refined(tables_, {wo.data(), 1}, {wi.data(), 1}, 1, result.data(), 1);
   return result;
@@ -204,10 +212,6 @@ Rgb RefinedBrdf::eval(const Vec3& wo, const Vec3& wi) const {
 void RefinedBrdf::eval_batch(const DirectionsRef& wo, const DirectionsRef& wi, Eigen::Ref<RgbRows> out) const {
   evaluate_refined(tables_, {wo.data(), wo.outerStride()}, {wi.data(), wi.outerStride()}, out.rows(), out.data(),
                    out.outerStride());
-  const auto above = wo.col(2) > 0 && wi.col(2) > 0;
-  for (Eigen::Index row = 0; row < out.rows(); ++row) {
-    if (!above(row)) out.row(row).setZero();
-  }
 }
 
 std::size_t refined_bytes(std::size_t components, int bits, std::size_t coefficients) {
@@ -221,34 +225,42 @@ std::size_t RefinedBrdf::bytes() const {
 }
 
 std::size_t RefinedBrdf::expanded_bytes() const {
-  return sizeof(float) * (tables_.shape.size() + tables_.red.size() + tables_.blue.size() + tables_.powers.size() +
-                          tables_.coupling.size());
+  return sizeof(float) *
+         (tables_.shape.size() + tables_.colour.size() + tables_.powers.size() + tables_.coupling.size());
 }
 
 Rgb RefinedBrdf::at(const Warped& w) const {
   const SplineWeights half = spline_weights(w.half, structure_.half);
   const SplineWeights difference = spline_weights(w.difference, structure_.difference);
-  const SplineWeights colour_half = spline_weights(w.half, structure_.colour_half);
-  const SplineWeights colour_difference = spline_weights(w.difference, structure_.colour_difference);
-  const SplineWeights along = spline_weights(w.difference, structure_.azimuth_difference);
+  const Between h = on_lattice(w.half, Lattice::half), p = on_lattice(w.difference, Lattice::difference),
+                n = on_lattice(w.azimuth, Lattice::azimuth);
   Rgb sum = Rgb::Zero();
   for (int k = 0; k < structure_.components; ++k) {
+    const auto entry = [&](const AlignedFloats& table, int index) {
+      return static_cast<double>(table[static_cast<std::size_t>(index * kMostComponents + k)]);
+    };
     double log_green = tensor(part(k, RefinedPart::shape), structure_.half, half, difference);
-    const std::vector<double> powers = powers_of(structure_, part(k, RefinedPart::azimuth));
     double azimuth = 0;
-    for (int m = structure_.azimuth - 1; m >= 0; --m) {
-      for (int j = 0; j < kSplineOrder; ++j) {
-        azimuth += along.weight[static_cast<std::size_t>(j)] *
-                   powers[static_cast<std::size_t>((along.first + j) * structure_.azimuth + m)];
-      }
+    for (int m = structure_.azimuth; m-- > 0;) {
+      azimuth += mixed(p, [&](int row) { return entry(tables_.powers, row * even_azimuth() + m); });
       azimuth *= w.azimuth;
     }
     log_green += azimuth;
-    if (!tables_.coupling.empty()) log_green += lattice(tables_, k, w);
-    const auto colour = [&](RefinedPart channel) {
-      return tensor(part(k, channel), structure_.colour_half, colour_half, colour_difference);
+    if (!tables_.coupling.empty()) {
+      log_green += mixed(p, [&](int plane) {
+        return mixed(h, [&](int row) {
+          return mixed(n, [&](int column) {
+            return entry(tables_.coupling, plane * Lattice::plane + Lattice::index(row, column));
+          });
+        });
+      });
+    }
+    const auto colour = [&](int channel) {
+      return mixed(p, [&](int column) {
+        return mixed(h, [&](int row) { return entry(tables_.colour, 2 * (column * Lattice::half + row) + channel); });
+      });
     };
-    sum += Rgb(log_green + colour(RefinedPart::red), log_green, log_green + colour(RefinedPart::blue)).exp();
+    sum += std::exp(log_green) * Rgb(colour(0), 1, colour(1));
   }
   return sum;
 }

@@ -6,8 +6,9 @@
 ///             c_k(F_k(half | difference), G_k(azimuth | difference); tau_k(difference))
 ///
 /// in the coordinates of Warped. A (log weight and margin of theta_h), R (how red and blue differ from green) and P
-/// (log margin of phi_d) are cubic tensor splines; c_k is the copula of a registered family, or 1. The cells below the
-/// horizon take no part in a fit, so the density is that of the truncated distribution.
+/// (log margin of phi_d) are cubic tensor splines; c_k is the copula of a registered family, or 1. exp(R), P and log c
+/// are linear between the nodes of the Lattice. The cells below the horizon take no part in a fit, so the density is
+/// that of the truncated distribution.
 
 #include <array>
 #include <cstdint>
@@ -53,7 +54,7 @@ class RefinedBrdf final : public Brdf {
   /// Bytes of the tables that evaluation reads, made of the coefficients on construction.
   [[nodiscard]] std::size_t expanded_bytes() const;
 
-  /// The value in double; eval is within a relative 1e-5 of it.
+  /// The value in double; eval is within a relative 2e-5 of it, at most points within 1e-6.
   [[nodiscard]] Rgb at(const Warped& w) const;
 
   [[nodiscard]] const RefinedStructure& structure() const { return structure_; }
@@ -65,6 +66,8 @@ class RefinedBrdf final : public Brdf {
 
  private:
   void eval_batch(const DirectionsRef& wo, const DirectionsRef& wi, Eigen::Ref<RgbRows> out) const override;
+  [[nodiscard]] int even_azimuth() const { return structure_.azimuth + structure_.azimuth % 2; }
+  void expand();
   void expand_component(int component);
   void require_bounded() const;
   [[nodiscard]] std::vector<double> part(int component, RefinedPart part) const;

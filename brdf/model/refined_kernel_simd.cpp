@@ -1,5 +1,6 @@
-// The vector kernel of the refined model. The coordinates and spline weights of a block of rows are found side by side;
-// then row by row the log densities of all components side by side.
+// The vector kernel of the refined model, a block of rows at a time in three passes: the coordinates and weights of all
+// rows side by side; row by row the logs of all components side by side; exponentials and sums, rows side by side
+// again.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "brdf/model/refined_kernel_simd.cpp"
@@ -9,7 +10,7 @@
 //
 #include <algorithm>
 
-#include "brdf/model/coupling.hpp"
+#include "brdf/model/lattice.hpp"
 #include "brdf/model/refined_kernel.hpp"
 #include "brdf/model/refined_structure.hpp"
 #include "brdf/model/spline.hpp"
@@ -22,190 +23,417 @@ namespace sklar::brdf::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace sn = sklar::simd::HWY_NAMESPACE;
 
-constexpr std::ptrdiff_t kBlock = 16;  // rows
-using D = hn::CappedTag<float, kBlock>;
+constexpr std::ptrdiff_t kBlock = 32;  // rows; so many that the chains of their divisions and roots overlap
+constexpr std::ptrdiff_t kPair = 2 * kMostComponents;
+using D = hn::CappedTag<float, kPair>;
 using V = hn::Vec<D>;
-using Components = hn::CappedTag<float, kMostComponents>;
-constexpr std::size_t kParts = kMostComponents / hn::MaxLanes(Components());
+using Double = hn::CappedTag<double, kPair / 2>;
+using DoubleV = hn::Vec<Double>;
+using OfDouble = hn::Rebind<float, Double>;
+constexpr auto kLanes = static_cast<std::ptrdiff_t>(hn::MaxLanes(D()));
+constexpr auto kDoubles = static_cast<std::ptrdiff_t>(hn::MaxLanes(Double()));
+static_assert(kBlock % kLanes == 0 && kBlock % kDoubles == 0);
 
-/// The numbers of all components.
-struct Lanes {
-  hn::Vec<Components> part[kParts];
+constexpr auto kParts = static_cast<std::size_t>(kPair / kLanes);
 
-  static HWY_INLINE Lanes zero() {
-    Lanes result;
-    for (auto& part : result.part) part = hn::Zero(Components());
+/// Four numbers of each row of a block.
+struct Four {
+  HWY_ALIGN float numbers[4][kBlock];
+
+  template <class Tag, class Numbers>
+  HWY_INLINE void store(Tag d, std::ptrdiff_t at, Numbers first, Numbers second, Numbers third, Numbers fourth) {
+    hn::StoreU(first, d, numbers[0] + at);
+    hn::StoreU(second, d, numbers[1] + at);
+    hn::StoreU(third, d, numbers[2] + at);
+    hn::StoreU(fourth, d, numbers[3] + at);
+  }
+  /// One of a row in all lanes.
+  HWY_INLINE V get(int which, std::ptrdiff_t row) const { return hn::Set(D(), numbers[which][row]); }
+};
+
+/// Two numbers of each component.
+struct Pair {
+  V part[kParts];
+
+  static HWY_INLINE Pair of(V first, V second) {
+    Pair result;
+    for (std::size_t i = 0; i < kParts; ++i) {
+      if constexpr (kParts == 1) {
+        result.part[i] = hn::IfThenElse(hn::FirstN(D(), kMostComponents), first, second);
+      } else {
+        result.part[i] = i < kParts / 2 ? first : second;
+      }
+    }
     return result;
   }
-  HWY_INLINE void add(float weight, const float* from) {
-    const Components d;
-    for (std::size_t i = 0; i < kParts; ++i) {
-      part[i] = hn::MulAdd(hn::Set(d, weight), hn::LoadU(d, from + i * hn::MaxLanes(d)), part[i]);
-    }
+  static HWY_INLINE Pair load(const float* from) {
+    Pair result;
+    for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::LoadU(D(), from + i * hn::MaxLanes(D()));
+    return result;
   }
-  HWY_INLINE Lanes plus(const Lanes& other) const {
-    Lanes result;
+  HWY_INLINE void store(float* to) const {
+    for (std::size_t i = 0; i < kParts; ++i) hn::StoreU(part[i], D(), to + i * hn::MaxLanes(D()));
+  }
+  HWY_INLINE Pair plus(const Pair& other) const {
+    Pair result;
     for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::Add(part[i], other.part[i]);
     return result;
   }
-  HWY_INLINE Lanes times(float factor) const {
-    Lanes result;
-    for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::Mul(part[i], hn::Set(Components(), factor));
+  HWY_INLINE Pair times(const Pair& other) const {
+    Pair result;
+    for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::Mul(part[i], other.part[i]);
     return result;
   }
-  HWY_INLINE float sum_of_exp() const {
-    const Components d;
-    auto sum = hn::Zero(d);
-    for (const auto& x : part) sum = hn::Add(sum, sn::exp(d, x));
-    return hn::GetLane(hn::SumOfLanes(d, sum));
+  HWY_INLINE Pair times(V factor) const {
+    Pair result;
+    for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::Mul(part[i], factor);
+    return result;
+  }
+  HWY_INLINE Pair plus_times(const Pair& a, const Pair& b) const {
+    Pair result;
+    for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::MulAdd(a.part[i], b.part[i], part[i]);
+    return result;
+  }
+  HWY_INLINE Pair plus_times(V a, const Pair& b) const {
+    Pair result;
+    for (std::size_t i = 0; i < kParts; ++i) result.part[i] = hn::MulAdd(a, b.part[i], part[i]);
+    return result;
   }
 };
 
-/// Where the rows of a block stand on one axis: the first of the coefficients and their weights.
-struct Axis {
+/// The interval of `count` on [0,1] in which x lies, at an edge either; from 0 to count - 1 also where directions below
+/// the horizon have led elsewhere.
+template <class Tag>
+HWY_INLINE hn::Vec<hn::RebindToSigned<Tag>> interval_of(Tag d, hn::Vec<Tag> x, int count) {
+  constexpr float kRound = 0x1.8p23F;  // x + kRound rounds x to an integer
+  constexpr int kRoundBits = 0x4b400000;
+  const hn::RebindToSigned<Tag> whole;
+  const auto middle = hn::MulSub(x, hn::Set(d, static_cast<float>(count)), hn::Set(d, 0.5F));
+  const auto rounded = hn::Sub(hn::BitCast(whole, hn::Add(middle, hn::Set(d, kRound))), hn::Set(whole, kRoundBits));
+  return hn::Max(hn::Zero(whole), hn::Min(rounded, hn::Set(whole, count - 1)));
+}
+
+/// Where the rows of a block stand on a spline's axis: the first of its coefficients and their weights.
+struct SplineAxis {
   HWY_ALIGN int first[kBlock];
-  HWY_ALIGN float weight[kSplineOrder][kBlock];
+  Four weights;
 
-  HWY_INLINE void locate(const float* x, std::ptrdiff_t at, int count) {
-    const D d;
-    const hn::RebindToSigned<D> di;
+  template <class Tag, class Numbers = hn::Vec<Tag>>
+  /// @param lost what x lacks by rounding.
+  HWY_INLINE void locate(Tag d, std::ptrdiff_t at, Numbers x, Numbers lost, int count) {
     const int intervals = count - kSplineOrder + 1;
-    const V position = hn::Mul(hn::LoadU(d, x + at), hn::Set(d, static_cast<float>(intervals)));
-    const auto cell = hn::Min(hn::ConvertTo(di, position), hn::Set(di, intervals - 1));
-    const V t = hn::Sub(position, hn::ConvertTo(d, cell)), s = hn::Sub(hn::Set(d, 1.0F), t);
-    const V sixth = hn::Set(d, 1.0F / 6), three = hn::Set(d, 3.0F), six = hn::Set(d, 6.0F), four = hn::Set(d, 4.0F);
-    const V t2 = hn::Mul(t, t), s2 = hn::Mul(s, s);
-    hn::StoreU(cell, di, first + at);
-    hn::StoreU(hn::Mul(sixth, hn::Mul(s, s2)), d, weight[0] + at);
-    hn::StoreU(hn::Mul(sixth, hn::MulAdd(t2, hn::Sub(hn::Mul(three, t), six), four)), d, weight[1] + at);
-    hn::StoreU(hn::Mul(sixth, hn::MulAdd(s2, hn::Sub(hn::Mul(three, s), six), four)), d, weight[2] + at);
-    hn::StoreU(hn::Mul(sixth, hn::Mul(t, t2)), d, weight[3] + at);
+    const Numbers along = hn::Set(d, static_cast<float>(intervals));
+    const auto cell = interval_of(d, x, intervals);
+    const Numbers t = hn::MulAdd(lost, along, hn::MulSub(x, along, hn::ConvertTo(d, cell)));
+    const Numbers s = hn::Sub(hn::Set(d, 1.0F), t);
+    const Numbers sixth = hn::Set(d, 1.0F / 6), three = hn::Set(d, 3.0F), six = hn::Set(d, 6.0F),
+                  four = hn::Set(d, 4.0F);
+    const Numbers t2 = hn::Mul(t, t), s2 = hn::Mul(s, s);
+    hn::StoreU(cell, hn::RebindToSigned<Tag>(), first + at);
+    weights.store(d, at, hn::Mul(sixth, hn::Mul(s, s2)),
+                  hn::Mul(sixth, hn::MulAdd(t2, hn::MulSub(three, t, six), four)),
+                  hn::Mul(sixth, hn::MulAdd(s2, hn::MulSub(three, s, six), four)), hn::Mul(sixth, hn::Mul(t, t2)));
   }
 };
+
+/// A node of the lattice and the share of the next.
+template <class Tag>
+struct Node {
+  hn::Vec<hn::RebindToSigned<Tag>> first;
+  hn::Vec<Tag> share;
+
+  HWY_INLINE Node(Tag d, hn::Vec<Tag> x, int nodes) {
+    const auto along = hn::Set(d, static_cast<float>(nodes - 1));
+    first = interval_of(d, x, nodes - 1);
+    share = hn::MulSub(x, along, hn::ConvertTo(d, first));
+  }
+};
+
+/// Sums and differences of the coordinates of rows side by side.
+template <class Tag>
+struct Sums {
+  hn::Vec<Tag> across, z, square, gap, rise;  // across: x^2 + y^2 of the sum
+};
+
+/// Those of a block. They cancel, so they are taken in double.
+struct SumRows {
+  HWY_ALIGN float across[kBlock], z[kBlock], square[kBlock], gap[kBlock], rise[kBlock];
+  HWY_ALIGN double lowest[kBlock];  // z of either direction
+
+  HWY_INLINE void load(const DirectionRows& wo, const DirectionRows& wi) {
+    const Double d;
+    const OfDouble f;
+    for (std::ptrdiff_t i = 0; i < kBlock; i += kDoubles) {
+      DoubleV sum[3], between[3];
+      for (std::ptrdiff_t k = 0; k < 3; ++k) {
+        const DoubleV in = hn::LoadU(d, wi.first + k * wi.stride + i), out = hn::LoadU(d, wo.first + k * wo.stride + i);
+        sum[k] = hn::Add(in, out);
+        between[k] = hn::Sub(in, out);
+        if (k == 2) hn::StoreU(hn::Min(in, out), d, lowest + i);
+      }
+      const auto store = [&](DoubleV value, float* to) { hn::StoreU(hn::DemoteTo(f, value), f, to + i); };
+      const DoubleV across_sum = hn::MulAdd(sum[0], sum[0], hn::Mul(sum[1], sum[1]));
+      const DoubleV across_gap = hn::MulAdd(between[0], between[0], hn::Mul(between[1], between[1]));
+      store(across_sum, across);
+      store(sum[2], z);
+      store(hn::MulAdd(sum[2], sum[2], across_sum), square);
+      store(hn::MulAdd(between[2], between[2], across_gap), gap);
+      store(between[2], rise);
+    }
+  }
+  HWY_INLINE Sums<D> at(std::ptrdiff_t i) const {
+    const D d;
+    return {hn::LoadU(d, across + i), hn::LoadU(d, z + i), hn::LoadU(d, square + i), hn::LoadU(d, gap + i),
+            hn::LoadU(d, rise + i)};
+  }
+};
+
+using OneRow = hn::CappedTag<float, 1>;
+HWY_INLINE Sums<OneRow> sums_of_one(const DirectionRows& wo, const DirectionRows& wi) {
+  const hn::CappedTag<double, 1> d;
+  using One = hn::Vec<decltype(d)>;
+  One sum[3], between[3];
+  for (std::ptrdiff_t k = 0; k < 3; ++k) {
+    const One in = hn::Set(d, wi.first[k * wi.stride]), out = hn::Set(d, wo.first[k * wo.stride]);
+    sum[k] = hn::Add(in, out);
+    between[k] = hn::Sub(in, out);
+  }
+  const One across_sum = hn::MulAdd(sum[0], sum[0], hn::Mul(sum[1], sum[1]));
+  const One across_gap = hn::MulAdd(between[0], between[0], hn::Mul(between[1], between[1]));
+  const auto set = [](One value) { return hn::Set(OneRow(), static_cast<float>(hn::GetLane(value))); };
+  return {set(across_sum), set(sum[2]), set(hn::MulAdd(sum[2], sum[2], across_sum)),
+          set(hn::MulAdd(between[2], between[2], across_gap)), set(between[2])};
+}
 
 /// Coordinates and weights of the rows of a block.
 struct Block {
-  HWY_ALIGN float sum_x[kBlock], sum_y[kBlock], sum_z[kBlock], square[kBlock], gap[kBlock], rise[kBlock];
-  HWY_ALIGN float half[kBlock], difference[kBlock], azimuth[kBlock];
-  Axis shape_half, shape_difference, colour_half, colour_difference, powers;
+  SplineAxis half, difference;
+  HWY_ALIGN int half_node[kBlock], difference_node[kBlock], azimuth_node[kBlock];
+  Four corners;  // weights of the nodes: both of half at the first of difference, at the second
+  HWY_ALIGN float next[kBlock], azimuth_next[kBlock];  // shares of the second nodes of difference and of azimuth
+  HWY_ALIGN float azimuth[kBlock], azimuth2[kBlock];   // and its square
 
-  /// Sums and differences cancel, so they are taken in double.
-  HWY_INLINE void load(const DirectionRows& wo, const DirectionRows& wi, std::ptrdiff_t row, std::ptrdiff_t rows) {
-    for (std::ptrdiff_t i = 0; i < kBlock; ++i) {
-      const double* o = wo.first + row + std::min(i, rows - 1);
-      const double* w = wi.first + row + std::min(i, rows - 1);
-      double sum[3], between[3];
-      for (std::ptrdiff_t k = 0; k < 3; ++k) {
-        sum[k] = w[k * wi.stride] + o[k * wo.stride];
-        between[k] = w[k * wi.stride] - o[k * wo.stride];
-      }
-      sum_x[i] = static_cast<float>(sum[0]);
-      sum_y[i] = static_cast<float>(sum[1]);
-      sum_z[i] = static_cast<float>(sum[2]);
-      square[i] = static_cast<float>(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-      gap[i] = static_cast<float>(between[0] * between[0] + between[1] * between[1] + between[2] * between[2]);
-      rise[i] = static_cast<float>(between[2]);
+  /// The rows from i on, as many as there are lanes.
+  template <class Tag>
+  HWY_INLINE void locate(Tag d, const RefinedTables& t, std::ptrdiff_t i, const Sums<Tag>& s) {
+    using Numbers = hn::Vec<Tag>;
+    const Numbers one = hn::Set(d, 1.0F), quarter = hn::Set(d, 0.25F), width = hn::Set(d, t.width);
+    const Numbers sin2_d = hn::Mul(quarter, s.gap);
+    const Numbers root = hn::Sqrt(s.square);
+    const Numbers inverse = hn::Div(one, hn::MulAdd(hn::MulAdd(s.z, root, s.square), width, s.across));
+    const Numbers share = hn::Mul(hn::Mul(s.across, hn::Add(one, width)), inverse);
+    const Numbers above = hn::Mul(hn::Mul(width, s.z), hn::Mul(hn::Add(root, s.z), inverse));  // 1 - share
+    const Numbers at_half = hn::Sqrt(hn::Sqrt(share));
+    // Towards half = 1, where a model is steepest, what is lost in rounding it: (share - half^4) / 4.
+    const Numbers below_one = hn::Mul(hn::Sub(one, at_half), hn::Add(one, at_half));
+    const Numbers lost = hn::Mul(quarter, hn::Sub(hn::MulAdd(below_one, hn::Mul(at_half, at_half), below_one), above));
+    const Numbers left = hn::Div(hn::Mul(quarter, s.square), hn::Add(one, hn::Sqrt(sin2_d)));
+    const Numbers reach = hn::MulAdd(s.across, sin2_d, hn::Mul(hn::Set(d, static_cast<float>(kPole)), s.square));
+    const Numbers fall = hn::Mul(quarter, hn::Mul(hn::Mul(s.rise, s.rise), s.square));
+    place(d, t, i, at_half, lost, hn::Max(hn::Zero(d), hn::Sub(one, hn::Sqrt(left))), hn::Div(fall, reach));
+  }
+
+ private:
+  template <class Tag, class Numbers = hn::Vec<Tag>>
+  HWY_INLINE void place(Tag d, const RefinedTables& t, std::ptrdiff_t i, Numbers at_half, Numbers lost,
+                        Numbers at_difference, Numbers at_azimuth) {
+    const hn::RebindToSigned<Tag> whole;
+    half.locate(d, i, at_half, lost, t.half);
+    difference.locate(d, i, at_difference, hn::Zero(d), t.difference);
+    const Node<Tag> h(d, at_half, Lattice::half), p(d, at_difference, Lattice::difference);
+    const Numbers h0 = hn::Sub(hn::Set(d, 1.0F), h.share), p0 = hn::Sub(hn::Set(d, 1.0F), p.share);
+    hn::StoreU(h.first, whole, half_node + i);
+    hn::StoreU(p.first, whole, difference_node + i);
+    corners.store(d, i, hn::Mul(p0, h0), hn::Mul(p0, h.share), hn::Mul(p.share, h0), hn::Mul(p.share, h.share));
+    hn::StoreU(p.share, d, next + i);
+    hn::StoreU(at_azimuth, d, azimuth + i);
+    hn::StoreU(hn::Mul(at_azimuth, at_azimuth), d, azimuth2 + i);
+    if (t.coupling.empty()) return;
+    const Node<Tag> a(d, at_azimuth, Lattice::azimuth);
+    hn::StoreU(a.first, whole, azimuth_node + i);
+    hn::StoreU(a.share, d, azimuth_next + i);
+  }
+};
+
+/// The log of green of a row, in two parts to be added.
+HWY_INLINE Pair log_parts(const RefinedTables& t, const Block& b, std::ptrdiff_t row) {
+  const Four &across = b.half.weights, &along = b.difference.weights;
+  const Pair low = Pair::of(across.get(0, row), across.get(1, row));
+  const Pair high = Pair::of(across.get(2, row), across.get(3, row));
+  const float* shape = t.shape.data() + (b.difference.first[row] * t.half + b.half.first[row]) * kMostComponents;
+  const std::ptrdiff_t column = t.half * kMostComponents;
+  const auto along_half = [&](int j) {
+    const float* from = shape + j * column;
+    return low.times(Pair::load(from)).plus_times(high, Pair::load(from + kPair));
+  };
+  const Pair first = along_half(0).times(along.get(0, row)).plus_times(along.get(1, row), along_half(1));
+  Pair sum = along_half(2).times(along.get(2, row)).plus_times(along.get(3, row), along_half(3));
+  const std::ptrdiff_t step = t.powers_pairs * kPair;
+  const float* powers = t.powers.data() + b.difference_node[row] * step;
+  const V square = hn::Set(D(), b.azimuth2[row]);
+  const V next = hn::Set(D(), b.next[row]), here = hn::Sub(hn::Set(D(), 1.0F), next);
+  Pair z = Pair::of(hn::Set(D(), b.azimuth[row]), square);
+  for (int m = 0; m < t.powers_pairs; ++m, powers += kPair) {
+    sum = sum.plus_times(z, Pair::load(powers).times(here).plus_times(next, Pair::load(powers + step)));
+    z = z.times(square);
+  }
+  return sum.plus(first);
+}
+
+/// At the four nodes around a row's half and difference.
+HWY_INLINE Pair between(const Block& b, std::ptrdiff_t row, const float* first, std::ptrdiff_t half,
+                        std::ptrdiff_t difference) {
+  Pair sum = Pair::load(first).times(b.corners.get(0, row));
+  sum = sum.plus_times(b.corners.get(1, row), Pair::load(first + half));
+  sum = sum.plus_times(b.corners.get(2, row), Pair::load(first + difference));
+  return sum.plus_times(b.corners.get(3, row), Pair::load(first + difference + half));
+}
+
+/// The log of green in two parts to be added, and red and blue over green.
+HWY_INLINE void evaluate_row(const RefinedTables& t, const Block& b, std::ptrdiff_t row, float* logs, float* colour) {
+  Pair sum = log_parts(t, b, row);
+  if (!t.coupling.empty()) {
+    constexpr std::ptrdiff_t kHalf = Lattice::azimuth * kMostComponents, kDifference = Lattice::half * kHalf;
+    const float* node = t.coupling.data() + b.difference_node[row] * kDifference + b.half_node[row] * kHalf +
+                        b.azimuth_node[row] * kMostComponents;
+    const V next = hn::Set(D(), b.azimuth_next[row]);
+    sum = sum.plus_times(Pair::of(hn::Sub(hn::Set(D(), 1.0F), next), next), between(b, row, node, kHalf, kDifference));
+  }
+  sum.store(logs);
+  constexpr std::ptrdiff_t kDifference = Lattice::half * kPair;
+  const float* node = t.colour.data() + b.difference_node[row] * kDifference + b.half_node[row] * kPair;
+  between(b, row, node, kPair, kDifference).store(colour);
+}
+
+/// Adds the two parts of the log of each component.
+HWY_INLINE void add_parts(const float* logs, float* green) {
+  const hn::CappedTag<float, kMostComponents> d;
+  for (std::ptrdiff_t k = 0; k < kMostComponents; k += static_cast<std::ptrdiff_t>(hn::MaxLanes(d))) {
+    hn::StoreU(hn::Add(hn::LoadU(d, logs + k), hn::LoadU(d, logs + kMostComponents + k)), d, green + k);
+  }
+}
+
+constexpr std::ptrdiff_t kPartial = 4;  // sums of a row, to be added
+
+/// Sums of red, green and blue over every fourth component.
+HWY_INLINE void partial_sums(const float* green, const float* colour, float* red_sum, float* sum, float* blue_sum) {
+  const hn::CappedTag<float, kPartial> d;
+  for (std::ptrdiff_t i = 0; i < kPartial; i += static_cast<std::ptrdiff_t>(hn::MaxLanes(d))) {
+    auto g = hn::Zero(d), r = hn::Zero(d), b = hn::Zero(d);
+    for (std::ptrdiff_t k = i; k < kMostComponents; k += kPartial) {
+      const auto part = hn::LoadU(d, green + k);
+      g = hn::Add(g, part);
+      r = hn::MulAdd(part, hn::LoadU(d, colour + k), r);
+      b = hn::MulAdd(part, hn::LoadU(d, colour + kMostComponents + k), b);
+    }
+    hn::StoreU(r, d, red_sum + i);
+    hn::StoreU(g, d, sum + i);
+    hn::StoreU(b, d, blue_sum + i);
+  }
+}
+
+/// The components of the rows of a block.
+struct Terms {
+  HWY_ALIGN float logs[kBlock * kPair];  // of green, in two parts to be added
+  HWY_ALIGN float green[kBlock * kMostComponents];
+  HWY_ALIGN float colour[kBlock * kPair];
+  HWY_ALIGN float sums[3][kBlock * kPartial];
+
+  HWY_INLINE void add_up(std::ptrdiff_t rows) {
+    for (std::ptrdiff_t row = 0; row < rows; ++row) add_parts(logs + row * kPair, green + row * kMostComponents);
+    for (std::ptrdiff_t i = 0; i < rows * kMostComponents; i += kLanes) {
+      hn::StoreU(sn::exp(D(), hn::LoadU(D(), green + i)), D(), green + i);
+    }
+    for (std::ptrdiff_t row = 0; row < rows; ++row) {
+      const std::ptrdiff_t at = kPartial * row;
+      partial_sums(green + row * kMostComponents, colour + row * kPair, sums[0] + at, sums[1] + at, sums[2] + at);
     }
   }
 
-  HWY_INLINE void locate(const RefinedTables& t) {
-    const D d;
-    const V one = hn::Set(d, 1.0F), quarter = hn::Set(d, 0.25F), width = hn::Set(d, t.width);
-    for (std::ptrdiff_t i = 0; i < kBlock; i += static_cast<std::ptrdiff_t>(hn::MaxLanes(d))) {
-      const V x = hn::LoadU(d, sum_x + i), y = hn::LoadU(d, sum_y + i), z = hn::LoadU(d, sum_z + i);
-      const V across = hn::LoadU(d, square + i), fall = hn::LoadU(d, rise + i);
-      const V sin2_d = hn::Mul(quarter, hn::LoadU(d, gap + i));
-      const V sin2_h = hn::Div(hn::MulAdd(x, x, hn::Mul(y, y)), across);
-      const V versed = hn::Div(sin2_h, hn::Add(one, hn::Div(z, hn::Sqrt(across))));
-      const V share = hn::Div(hn::Mul(versed, hn::Add(one, width)), hn::Add(versed, width));
-      const V left = hn::Div(hn::Mul(quarter, across), hn::Add(one, hn::Sqrt(sin2_d)));
-      const V reach = hn::MulAdd(sin2_h, sin2_d, hn::Set(d, static_cast<float>(kPole)));
-      hn::StoreU(hn::Sqrt(hn::Sqrt(share)), d, half + i);
-      hn::StoreU(hn::Max(hn::Zero(d), hn::Sub(one, hn::Sqrt(left))), d, difference + i);
-      hn::StoreU(hn::Div(hn::Mul(quarter, hn::Mul(fall, fall)), reach), d, azimuth + i);
-      shape_half.locate(half, i, t.half);
-      shape_difference.locate(difference, i, t.difference);
-      colour_half.locate(half, i, t.colour_half);
-      colour_difference.locate(difference, i, t.colour_difference);
-      powers.locate(difference, i, t.azimuth_difference);
+  HWY_INLINE void store(const SumRows& directions, double* out, std::ptrdiff_t stride) const {
+    const Double d;
+    for (std::ptrdiff_t c = 0; c < 3; ++c) {
+      HWY_ALIGN float total[kBlock];
+      for (std::ptrdiff_t i = 0; i < kBlock; i += kLanes) {
+        V part[4];
+        hn::LoadInterleaved4(D(), sums[c] + kPartial * i, part[0], part[1], part[2], part[3]);
+        hn::StoreU(hn::Add(hn::Add(part[0], part[1]), hn::Add(part[2], part[3])), D(), total + i);
+      }
+      for (std::ptrdiff_t i = 0; i < kBlock; i += kDoubles) {
+        const auto above = hn::Gt(hn::LoadU(d, directions.lowest + i), hn::Zero(d));
+        const DoubleV value = hn::PromoteTo(d, hn::LoadU(OfDouble(), total + i));
+        hn::StoreU(hn::IfThenElseZero(above, value), d, out + c * stride + i);
+      }
     }
   }
 };
 
-/// sum of weights times coefficients of a tensor product spline.
-HWY_INLINE Lanes tensor(const float* table, int columns, const Axis& across, const Axis& along, std::ptrdiff_t row) {
-  Lanes sum = Lanes::zero();
-  for (int j = 0; j < kSplineOrder; ++j) {
-    const float* from = table + ((along.first[row] + j) * columns + across.first[row]) * kMostComponents;
-    for (int i = 0; i < kSplineOrder; ++i) {
-      sum.add(along.weight[j][row] * across.weight[i][row], from + i * kMostComponents);
+struct Workspace {
+  SumRows sums;
+  Block block;
+  Terms terms;
+
+  /// kBlock rows of directions, of which the first `rows` count.
+  HWY_INLINE void evaluate(const RefinedTables& t, const DirectionRows& wo, const DirectionRows& wi,
+                           std::ptrdiff_t rows, double* out, std::ptrdiff_t stride) {
+    sums.load(wo, wi);
+    for (std::ptrdiff_t i = 0; i < kBlock; i += kLanes) block.locate(D(), t, i, sums.at(i));
+    for (std::ptrdiff_t row = 0; row < rows; ++row) {
+      evaluate_row(t, block, row, terms.logs + row * kPair, terms.colour + row * kPair);
     }
-  }
-  return sum;
-}
-
-HWY_INLINE Lanes azimuth_terms(const RefinedTables& t, const Block& block, std::ptrdiff_t row) {
-  Lanes sum = Lanes::zero();
-  const float z = block.azimuth[row];
-  const int step = t.azimuth * kMostComponents;
-  for (int m = t.azimuth - 1; m >= 0; --m) {
-    for (int j = 0; j < kSplineOrder; ++j) {
-      sum.add(block.powers.weight[j][row],
-              t.powers.data() + (block.powers.first[row] + j) * step + m * kMostComponents);
-    }
-    sum = sum.times(z);
-  }
-  return sum;
-}
-
-struct LatticeAxis {
-  int first;
-  float weight[2];
-
-  LatticeAxis(float x, int nodes)
-      : first(std::min(static_cast<int>(x * static_cast<float>(nodes - 1)), nodes - 2)), weight{} {
-    weight[1] = x * static_cast<float>(nodes - 1) - static_cast<float>(first);
-    weight[0] = 1 - weight[1];
+    terms.add_up(rows);
+    terms.store(sums, out, stride);
   }
 };
 
-HWY_INLINE Lanes coupling_terms(const RefinedTables& t, const Block& block, std::ptrdiff_t row) {
-  Lanes sum = Lanes::zero();
-  const LatticeAxis half(block.half[row], CouplingLattice::half);
-  const LatticeAxis azimuth(block.azimuth[row], CouplingLattice::azimuth);
-  const LatticeAxis difference(block.difference[row], CouplingLattice::difference);
-  for (int p = 0; p < 2; ++p) {
-    const float* plane = t.coupling.data() +
-                         static_cast<std::ptrdiff_t>(difference.first + p) * CouplingLattice::plane * kMostComponents;
-    for (int m = 0; m < 2; ++m) {
-      for (int n = 0; n < 2; ++n) {
-        const int at = CouplingLattice::index(half.first + m, azimuth.first + n);
-        sum.add(difference.weight[p] * half.weight[m] * azimuth.weight[n], plane + at * kMostComponents);
-      }
-    }
+/// The same numbers as in a block.
+void evaluate_one(const RefinedTables& t, const DirectionRows& wo, const DirectionRows& wi, double* out,
+                  std::ptrdiff_t stride) {
+  const hn::CappedTag<float, kMostComponents> d;
+  if (!(wo.first[2 * wo.stride] > 0 && wi.first[2 * wi.stride] > 0)) {
+    for (std::ptrdiff_t c = 0; c < 3; ++c) out[c * stride] = 0;
+    return;
   }
-  return sum;
+  Block block;
+  HWY_ALIGN float logs[kPair], colour[kPair], green[kMostComponents], sums[3][kPartial];
+  block.locate(OneRow(), t, 0, sums_of_one(wo, wi));
+  evaluate_row(t, block, 0, logs, colour);
+  add_parts(logs, green);
+  for (std::ptrdiff_t k = 0; k < kMostComponents; k += static_cast<std::ptrdiff_t>(hn::MaxLanes(d))) {
+    hn::StoreU(sn::exp(d, hn::LoadU(d, green + k)), d, green + k);
+  }
+  partial_sums(green, colour, sums[0], sums[1], sums[2]);
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    out[c * stride] = static_cast<double>((sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]));
+  }
 }
+
+/// Fewer rows than a block, copied.
+struct Rest {
+  double wo[3][kBlock] = {}, wi[3][kBlock] = {}, out[3][kBlock];
+
+  void copy(const DirectionRows& from, std::ptrdiff_t first, std::ptrdiff_t rows, double (*to)[kBlock]) const {
+    for (std::ptrdiff_t k = 0; k < 3; ++k) std::copy_n(from.first + k * from.stride + first, rows, to[k]);
+  }
+};
 
 void evaluate(const RefinedTables& t, const DirectionRows& wo, const DirectionRows& wi, std::ptrdiff_t count,
               double* out, std::ptrdiff_t stride) {
-  Block block;
-  for (std::ptrdiff_t first = 0; first < count; first += kBlock) {
-    const std::ptrdiff_t rows = std::min(kBlock, count - first);
-    block.load(wo, wi, first, rows);
-    block.locate(t);
-    for (std::ptrdiff_t row = 0; row < rows; ++row) {
-      Lanes green = tensor(t.shape.data(), t.half, block.shape_half, block.shape_difference, row);
-      green = green.plus(azimuth_terms(t, block, row));
-      if (!t.coupling.empty()) green = green.plus(coupling_terms(t, block, row));
-      const Lanes red = tensor(t.red.data(), t.colour_half, block.colour_half, block.colour_difference, row);
-      const Lanes blue = tensor(t.blue.data(), t.colour_half, block.colour_half, block.colour_difference, row);
-      double* at = out + first + row;
-      at[0] = static_cast<double>(green.plus(red).sum_of_exp());
-      at[stride] = static_cast<double>(green.sum_of_exp());
-      at[2 * stride] = static_cast<double>(green.plus(blue).sum_of_exp());
-    }
+  if (count == 1) return evaluate_one(t, wo, wi, out, stride);
+  Workspace workspace;
+  std::ptrdiff_t first = 0;
+  for (; first + kBlock <= count; first += kBlock) {
+    workspace.evaluate(t, {wo.first + first, wo.stride}, {wi.first + first, wi.stride}, kBlock, out + first, stride);
   }
+  const std::ptrdiff_t rows = count - first;
+  if (rows == 0) return;
+  std::fill(std::begin(workspace.terms.logs), std::end(workspace.terms.logs), 0.0F);
+  std::fill(&workspace.terms.sums[0][0], &workspace.terms.sums[0][0] + 3 * kBlock * kPartial, 0.0F);
+  Rest rest;
+  rest.copy(wo, first, rows, rest.wo);
+  rest.copy(wi, first, rows, rest.wi);
+  workspace.evaluate(t, {rest.wo[0], kBlock}, {rest.wi[0], kBlock}, rows, rest.out[0], kBlock);
+  for (std::ptrdiff_t c = 0; c < 3; ++c) std::copy_n(rest.out[c], rows, out + c * stride + first);
 }
 
 }  // namespace sklar::brdf::HWY_NAMESPACE

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brdf/data/interpolation.hpp"
+#include "brdf/model/lattice.hpp"
 #include "brdf/model/spline.hpp"
 
 namespace sklar::brdf {
@@ -16,7 +16,7 @@ using Matrix = Eigen::MatrixXd;
 using MatrixIn = Eigen::Map<const Matrix>;
 using MatrixOut = Eigen::Map<Matrix>;
 
-constexpr double kRidge = 0.01;  // of the sum of squares, beside the sum over cells
+constexpr double kRidge = 0.01, kColourRidge = 0.1;  // of the sums of squares, beside the sum over cells
 
 std::vector<bool> coupled(const std::vector<FamilyInfo>& families) {
   std::vector<bool> result;
@@ -24,31 +24,16 @@ std::vector<bool> coupled(const std::vector<FamilyInfo>& families) {
   return result;
 }
 
-Between on_lattice(double x, int nodes) {
-  return between_clamped(x * (nodes - 1), nodes);
-}
-
-/// Row j: the shares of the lattice's nodes at x(j).
-Matrix lattice_shares(const Eigen::ArrayXd& x, int nodes) {
-  Matrix shares = Matrix::Zero(x.size(), nodes);
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    const Between node = on_lattice(x(j), nodes);
-    shares(j, node.low) += 1 - node.share;
-    shares(j, node.high) += node.share;
-  }
-  return shares;
-}
-
 /// log c at the cells of a slice from a plane of the lattice, or, transposed, slopes from there onto the plane.
 template <class Action>
 void for_each_cell(const RefinedCells& cells, const LossSlice& slice, const Action& action) {
   for (int i = 0; i < kLossRows; ++i) {
-    const Between half = on_lattice(cells.half(i), CouplingLattice::half);
+    const Between half = on_lattice(cells.half(i), Lattice::half);
     for (int l = 0; l < kLossColumns; ++l) {
       const auto cell = static_cast<std::size_t>(i * kLossColumns + l);
       if (slice.weight[cell] == 0) continue;
-      const Between azimuth = on_lattice(static_cast<double>(slice.azimuth[cell]), CouplingLattice::azimuth);
-      const auto node = [&](int m, int n, double share) { action(cell, CouplingLattice::index(m, n), share); };
+      const Between azimuth = on_lattice(static_cast<double>(slice.azimuth[cell]), Lattice::azimuth);
+      const auto node = [&](int m, int n, double share) { action(cell, Lattice::index(m, n), share); };
       node(half.low, azimuth.low, (1 - half.share) * (1 - azimuth.share));
       node(half.low, azimuth.high, (1 - half.share) * azimuth.share);
       node(half.high, azimuth.low, half.share * (1 - azimuth.share));
@@ -63,8 +48,8 @@ Matrix least_squares(const Matrix& across, const Matrix& along, const Matrix& va
   constexpr double kSmoothing = 1;
   const auto normal = [&](const Matrix& basis) {
     const Eigen::Index count = basis.cols();
-    const Matrix steps = Matrix::Identity(count, count).bottomRows(count - 1) -
-                         Matrix::Identity(count, count).topRows(count - 1);
+    const Matrix steps =
+        Matrix::Identity(count, count).bottomRows(count - 1) - Matrix::Identity(count, count).topRows(count - 1);
     return Matrix(basis.transpose() * basis + kSmoothing * steps.transpose() * steps);
   };
   const Matrix left = normal(across).ldlt().solve(across.transpose() * values * along);
@@ -159,10 +144,12 @@ RefinedProblem::RefinedProblem(const RefinedStructure& structure, const std::vec
       lattice_(structure),
       half_(spline_basis(cells_.half, structure.half)),
       difference_(spline_basis(cells_.difference, structure.difference)),
-      colour_half_(spline_basis(cells_.half, structure.colour_half)),
-      colour_difference_(spline_basis(cells_.difference, structure.colour_difference)),
-      azimuth_difference_(spline_basis(cells_.difference, structure.azimuth_difference)),
-      bernstein_(bernstein_powers(structure.azimuth)) {
+      colour_half_(lattice_basis(cells_.half, Lattice::half, structure.colour_half)),
+      colour_difference_(lattice_basis(cells_.difference, Lattice::difference, structure.colour_difference)),
+      azimuth_difference_(lattice_basis(cells_.difference, Lattice::difference, structure.azimuth_difference)),
+      bernstein_(bernstein_powers(structure.azimuth)),
+      half_shares_(lattice_shares(cells_.half, Lattice::half)),
+      difference_shares_(lattice_shares(cells_.difference, Lattice::difference)) {
   for (const FamilyInfo& family : families) {
     couplings_.push_back(family.parameters.empty() ? std::nullopt : std::optional(Coupling(family)));
   }
@@ -199,21 +186,35 @@ CouplingInput input_of(const RefinedStructure& structure, const std::vector<doub
 
 }  // namespace
 
+RefinedProblem::ColourRatio RefinedProblem::colour_ratio(const std::vector<double>& x, int component,
+                                                         RefinedPart colour) const {
+  const Matrix nodes = (lattice_.colour_half * matrix(x, layout_, component, colour, structure_.colour_half) *
+                        lattice_.colour_difference.transpose())
+                           .array()
+                           .exp();
+  return {nodes, half_shares_ * nodes * difference_shares_.transpose()};
+}
+
+void RefinedProblem::add_colour(const std::vector<double>& x, int component, RefinedPart colour, const Matrix& slopes,
+                                std::vector<double>& gradient) const {
+  const ColourRatio ratio = colour_ratio(x, component, colour);
+  const Matrix by_grid = slopes.array() / ratio.grid.array();
+  const Matrix by_log_nodes = (half_shares_.transpose() * by_grid * difference_shares_).array() * ratio.nodes.array();
+  matrix(gradient, layout_, component, colour, structure_.colour_half) +=
+      lattice_.colour_half.transpose() * by_log_nodes * lattice_.colour_difference;
+}
+
 RefinedProblem::Grids RefinedProblem::grids(const std::vector<double>& x) const {
   Grids result(structure_.components, structure_.azimuth);
   tbb::parallel_for(0, structure_.components, [&](int k) {
     const auto at = static_cast<std::size_t>(k);
-    const auto colour = [&](RefinedPart part) {
-      return Matrix(colour_half_ * matrix(x, layout_, k, part, structure_.colour_half) *
-                    colour_difference_.transpose());
-    };
+    const auto colour = [&](RefinedPart part) { return Matrix(colour_ratio(x, k, part).grid.array().log()); };
     const Matrix green = half_ * matrix(x, layout_, k, RefinedPart::shape, structure_.half) * difference_.transpose();
     result.values[at] = {green + colour(RefinedPart::red), green, green + colour(RefinedPart::blue)};
     result.powers[at] =
         bernstein_ * matrix(x, layout_, k, RefinedPart::azimuth, structure_.azimuth) * azimuth_difference_.transpose();
     if (!couplings_[at]) return;
-    const Matrix shares = lattice_shares(cells_.difference, CouplingLattice::difference);
-    result.planes[at] = couplings_[at]->values(input_of(structure_, x, layout_, k)) * shares.transpose();
+    result.planes[at] = couplings_[at]->values(input_of(structure_, x, layout_, k)) * difference_shares_.transpose();
   });
   return result;
 }
@@ -275,32 +276,40 @@ double RefinedProblem::evaluate(const LossWeights& weights, const std::vector<do
     const auto& [red, green, blue] = slopes.values[static_cast<std::size_t>(k)];
     matrix(gradient, layout_, k, RefinedPart::shape, structure_.half) =
         half_.transpose() * (red + green + blue) * difference_;
-    matrix(gradient, layout_, k, RefinedPart::red, structure_.colour_half) =
-        colour_half_.transpose() * red * colour_difference_;
-    matrix(gradient, layout_, k, RefinedPart::blue, structure_.colour_half) =
-        colour_half_.transpose() * blue * colour_difference_;
+    add_colour(x, k, RefinedPart::red, red, gradient);
+    add_colour(x, k, RefinedPart::blue, blue, gradient);
     matrix(gradient, layout_, k, RefinedPart::azimuth, structure_.azimuth) =
         bernstein_.transpose() * slopes.powers[static_cast<std::size_t>(k)] * azimuth_difference_;
   }
   add_coupling(x, slopes, gradient);
   double loss = 0;
   for (const double part : losses) loss += part;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double away = x[i] - start_[i];
-    loss += kRidge * away * away;
-    gradient[i] = (gradient[i] + 2 * kRidge * away) / cells_.total_weight;
+  return (loss + add_ridge(x, gradient)) / cells_.total_weight;
+}
+
+double RefinedProblem::add_ridge(const std::vector<double>& x, std::vector<double>& gradient) const {
+  double sum = 0;
+  for (int k = 0; k < structure_.components; ++k) {
+    for (const RefinedPart part : kRefinedParts) {
+      const double weight = part == RefinedPart::red || part == RefinedPart::blue ? kColourRidge : kRidge;
+      const auto first = static_cast<std::size_t>(layout_.first(k, part));
+      for (std::size_t i = first; i < first + static_cast<std::size_t>(layout_.count(k, part)); ++i) {
+        const double away = x[i] - start_[i];
+        sum += weight * away * away;
+        gradient[i] = (gradient[i] + 2 * weight * away) / cells_.total_weight;
+      }
+    }
   }
-  return loss / cells_.total_weight;
+  return sum;
 }
 
 void RefinedProblem::add_coupling(const std::vector<double>& x, const Grids& slopes,
                                   std::vector<double>& gradient) const {
-  const Matrix shares = lattice_shares(cells_.difference, CouplingLattice::difference);
   tbb::parallel_for(0, structure_.components, [&](int k) {
     const std::optional<Coupling>& coupling = couplings_[static_cast<std::size_t>(k)];
     if (!coupling) return;
-    const CouplingInput by =
-        coupling->gradient(input_of(structure_, x, layout_, k), slopes.planes[static_cast<std::size_t>(k)] * shares);
+    const CouplingInput by = coupling->gradient(input_of(structure_, x, layout_, k),
+                                                slopes.planes[static_cast<std::size_t>(k)] * difference_shares_);
     matrix(gradient, layout_, k, RefinedPart::shape, structure_.half) +=
         lattice_.half.transpose() * by.half * lattice_.difference;
     matrix(gradient, layout_, k, RefinedPart::azimuth, structure_.azimuth) +=

@@ -34,16 +34,27 @@ class RefinedProblem {
   struct Grids;  // the log densities of a component on the grid of the table
   [[nodiscard]] Grids grids(const std::vector<double>& x) const;
   [[nodiscard]] LossModel slice_model(const Grids& grids, int j) const;
+  /// Adds the slopes of the ridge and divides all by the weight of the cells. @return the ridge.
+  double add_ridge(const std::vector<double>& x, std::vector<double>& gradient) const;
   void add_coupling(const std::vector<double>& x, const Grids& slopes, std::vector<double>& gradient) const;
+
+  /// A colour over green, at the nodes of the lattice and on the grid of the table.
+  struct ColourRatio {
+    Eigen::MatrixXd nodes, grid;
+  };
+  [[nodiscard]] ColourRatio colour_ratio(const std::vector<double>& x, int component, RefinedPart colour) const;
+  void add_colour(const std::vector<double>& x, int component, RefinedPart colour, const Eigen::MatrixXd& slopes,
+                  std::vector<double>& gradient) const;
 
   RefinedStructure structure_;
   RefinedCells cells_;
   RefinedLayout layout_;
   std::vector<std::optional<Coupling>> couplings_;
-  CouplingBases lattice_;
+  LatticeBases lattice_;
   std::vector<double> start_;
   double image_scale_ = 1;  // 1 / mean of (f c)^2
   Eigen::MatrixXd half_, difference_, colour_half_, colour_difference_, azimuth_difference_, bernstein_;
+  Eigen::MatrixXd half_shares_, difference_shares_;  // of the nodes of the lattice
 };
 
 }  // namespace sklar::brdf

@@ -17,7 +17,7 @@ void require_count(const char* field, int value, int lowest, int highest) {
 }  // namespace
 
 void require_structure(const RefinedStructure& structure) {
-  constexpr int kMost = 128, kHighestDegree = 6;
+  constexpr int kMost = 128;
   require_count("components", structure.components, 1, kMostComponents);
   require_count("half", structure.half, kSplineOrder, kMost);
   require_count("difference", structure.difference, kSplineOrder, kMost);
@@ -27,7 +27,8 @@ void require_structure(const RefinedStructure& structure) {
   require_count("azimuth_difference", structure.azimuth_difference, kSplineOrder, kMost);
   require_count("coupling_difference", structure.coupling_difference, kSplineOrder, kMost);
   if (!(structure.width > 0 && structure.width <= 100)) {
-    throw std::invalid_argument("refined model: width is " + sklar::to_text(structure.width) + ", allowed are (0, 100]");
+    throw std::invalid_argument("refined model: width is " + sklar::to_text(structure.width) +
+                                ", allowed are (0, 100]");
   }
 }
 

@@ -14,7 +14,7 @@ struct RefinedStructure {
   int difference = 12;          ///< and along difference, 4 to 128
   int colour_half = 4;          ///< of log red / green and log blue / green
   int colour_difference = 6;    ///<
-  int azimuth = 4;              ///< degree of the Bernstein polynomials in azimuth, 0 to 6
+  int azimuth = 4;              ///< degree of the Bernstein polynomials in azimuth, 0 to kHighestDegree
   int azimuth_difference = 8;   ///< spline coefficients of each of its coefficients along difference
   int coupling_difference = 6;  ///< spline coefficients of the dependence along difference, where there is a copula
   double width = 0.05;          ///< of warp, in (0, 100]
@@ -23,6 +23,7 @@ struct RefinedStructure {
 };
 
 inline constexpr int kMostComponents = 8;
+inline constexpr int kHighestDegree = 6;  ///< even
 
 /// @throws std::invalid_argument naming the field, its value and what is allowed.
 void require_structure(const RefinedStructure& structure);

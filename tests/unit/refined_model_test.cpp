@@ -19,7 +19,7 @@
 namespace sklar::brdf {
 namespace {
 
-constexpr double kSinglePrecision = 3e-5;  // relative, of eval against the value in double
+constexpr double kSinglePrecision = 2e-5;  // relative, of eval against the value in double
 
 RefinedStructure small() {
   return {.components = 2,
