@@ -61,10 +61,17 @@ void pick(const AnisotropicTable& table, int i, int j, int samples, std::vector<
   for (std::size_t n = first; n < picked.size(); ++n) picked[n].weight *= static_cast<double>(samples) / tried;
 }
 
-AnisotropicSlice make_slice(const AnisotropicTable& table, const AnisotropicStructure& structure, int j, int samples,
-                            double scale) {
+AnisotropicSlice make_slice(const AnisotropicTable& table, const AnisotropicStructure& structure, int j,
+                            CellMeasure measure, int samples, double scale) {
   std::vector<Picked> picked;
-  for (int i = 0; i < table.grid.theta_h; ++i) pick(table, i, j, samples, picked);
+  for (int i = 0; i < table.grid.theta_h; ++i) {
+    const std::size_t first = picked.size();
+    pick(table, i, j, samples, picked);
+    if (measure == CellMeasure::per_cell) continue;
+    const HalfDifference4 at = table.grid.centre(i, 0, j, 0);
+    const double solid_angle = std::sin(at.theta_h) * (i + 0.5) / table.grid.theta_h * std::sin(2 * at.theta_d);
+    for (std::size_t n = first; n < picked.size(); ++n) picked[n].weight *= solid_angle;
+  }
   const auto count = static_cast<Eigen::Index>(picked.size());
   const std::size_t padded = (picked.size() + kPointBlock - 1) / kPointBlock * kPointBlock;
   AnisotropicSlice slice;
@@ -103,12 +110,13 @@ double scale_of(const AnisotropicTable& table) {
 
 }  // namespace
 
-AnisotropicCells anisotropic_cells(const AnisotropicTable& table, const AnisotropicStructure& structure, int samples) {
+AnisotropicCells anisotropic_cells(const AnisotropicTable& table, const AnisotropicStructure& structure,
+                                   CellMeasure measure, int samples) {
   require_table("fit_anisotropic", table);
   AnisotropicCells cells{.slices = std::vector<AnisotropicSlice>(static_cast<std::size_t>(table.grid.theta_d)),
                          .scale = scale_of(table)};
   tbb::parallel_for(std::size_t{0}, cells.slices.size(), [&](std::size_t j) {
-    cells.slices[j] = make_slice(table, structure, static_cast<int>(j), samples, cells.scale);
+    cells.slices[j] = make_slice(table, structure, static_cast<int>(j), measure, samples, cells.scale);
   });
   for (const AnisotropicSlice& slice : cells.slices) {
     for (const float weight : slice.weight) cells.total_weight += 3 * static_cast<double>(weight);

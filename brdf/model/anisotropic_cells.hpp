@@ -6,6 +6,7 @@
 
 #include "brdf/data/anisotropic_table.hpp"
 #include "brdf/model/anisotropic_loss.hpp"
+#include "brdf/model/paper_brdf.hpp"
 
 namespace sklar::brdf {
 
@@ -19,6 +20,6 @@ struct AnisotropicCells {
 /// their share of the valid ones; cells with an angle beyond 80 degrees count a tenth, those with a cosine below 0.02
 /// not at all. @throws std::invalid_argument as fit_anisotropic.
 [[nodiscard]] AnisotropicCells anisotropic_cells(const AnisotropicTable& table, const AnisotropicStructure& structure,
-                                                 int samples);
+                                                 CellMeasure measure, int samples);
 
 }  // namespace sklar::brdf

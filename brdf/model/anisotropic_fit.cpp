@@ -22,7 +22,7 @@ AnisotropicFit fit_anisotropic(const AnisotropicTable& table, const AnisotropicF
   require_bits(options.bits);
   if (options.evaluations < 1) throw std::invalid_argument("fit_anisotropic: evaluations must be at least 1");
   if (options.samples < 1) throw std::invalid_argument("fit_anisotropic: samples must be at least 1");
-  AnisotropicCells cells = anisotropic_cells(table, options.structure, options.samples);
+  AnisotropicCells cells = anisotropic_cells(table, options.structure, options.measure, options.samples);
   const double log_scale = std::log(cells.scale);
   const AnisotropicProblem problem(options.structure, std::move(cells));
   std::vector<double> x = problem.start();

@@ -5,6 +5,7 @@
 
 #include "brdf/data/anisotropic_table.hpp"
 #include "brdf/model/anisotropic_model.hpp"
+#include "brdf/model/paper_brdf.hpp"
 #include "brdf/model/staged_search.hpp"
 
 namespace sklar::brdf {
@@ -12,6 +13,7 @@ namespace sklar::brdf {
 struct AnisotropicFitOptions {
   AnisotropicStructure structure = {};
   RefinedObjective objective = RefinedObjective::balanced;
+  CellMeasure measure = CellMeasure::per_cell;
   int bits = 12;          ///< of a stored coefficient, 6 to 16
   int evaluations = 600;  ///< of the objective, at most
   int samples = 48;       ///< cells of a bin of theta_h and theta_d, at most

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "brdf/model/anisotropic_model.hpp"
@@ -13,6 +14,15 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 constexpr double kRidge = 0.01;  // of the sum of squares, beside the sum over cells
+
+constexpr double kFence = 30;
+
+/// Beyond this distance from the start the square of what is more counts kFence: parts that could cancel each other do not
+/// grow without bound, and models stay far from where their values are not finite.
+double room_of(AnisotropicPart part) {
+  constexpr double kShape = 8, kOther = 4;
+  return part == AnisotropicPart::shape ? kShape : kOther;
+}
 
 Eigen::ArrayXd differences(const AnisotropicCells& cells) {
   Eigen::ArrayXd result(static_cast<Eigen::Index>(cells.slices.size()));
@@ -76,10 +86,15 @@ double AnisotropicProblem::evaluate(const LossWeights& weights, const std::vecto
   gradient = collect(slopes, x, false);
   double loss = 0;
   for (const double part : losses) loss += part;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double away = x[i] - start_[i];
-    loss += kRidge * away * away;
-    gradient[i] = (gradient[i] + 2 * kRidge * away) / cells_.total_weight;
+  for (int k = 0; k < structure_.components; ++k) {
+    for (const AnisotropicPart part : kAnisotropicParts) {
+      for (int n = 0; n < layout_.count(part); ++n) {
+        const auto i = static_cast<std::size_t>(layout_.first(k, part) + n);
+        const double away = x[i] - start_[i], room = room_of(part), beyond = away - std::clamp(away, -room, room);
+        loss += kRidge * away * away + kFence * beyond * beyond;
+        gradient[i] = (gradient[i] + 2 * (kRidge * away + kFence * beyond)) / cells_.total_weight;
+      }
+    }
   }
   return loss / cells_.total_weight;
 }

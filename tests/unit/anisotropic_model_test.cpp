@@ -120,7 +120,8 @@ TEST(AnisotropicMetric, GradientIsThatOfTheMatrix) {
 TEST(AnisotropicProblem, GradientIsThatOfTheObjective) {
   constexpr double kStep = 2e-3, kTolerance = 0.01;  // relative to the largest; the objective is in single precision
   for (const bool tilted : {false, true}) {
-    const AnisotropicProblem problem(small(tilted), anisotropic_cells(brass(), small(tilted), 24));
+    const AnisotropicProblem problem(small(tilted),
+                                     anisotropic_cells(brass(), small(tilted), CellMeasure::per_cell, 24));
     std::vector<double> x = problem.start();
     Rng rng(3);
     for (double& value : x) value += 0.3 * (uniform(rng) - 0.5);
@@ -206,6 +207,15 @@ TEST(AnisotropicModel, IsReciprocalPositiveFiniteAndTheSameInABatch) {
     EXPECT_TRUE((one == forth.row(i).transpose()).all()) << i;
   }
   EXPECT_FALSE(fit.brdf->traits().isotropic);
+}
+
+TEST(AnisotropicModel, CellsMayCountBySolidAngle) {
+  const AnisotropicFit cells = quick_fit(brass());
+  const AnisotropicFit angles = quick_fit(brass(), {.measure = CellMeasure::per_solid_angle});
+  const Vec3 wo = Vec3(0.8, 0.1, 0.5).normalized(), wi = Vec3(0.1, 0.9, 0.6).normalized();  // theta_h = 56 degrees
+  const Rgb f = brushed_metal()->eval(wo, wi);
+  EXPECT_LT((angles.brdf->eval(wo, wi) / f - 1).abs().mean(), 0.05);
+  EXPECT_NE(angles.objective, cells.objective);
 }
 
 TEST(AnisotropicModel, HasNoSeamsAtThePoles) {
