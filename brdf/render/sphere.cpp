@@ -177,21 +177,21 @@ void shade_row(const Brdf& brdf, const SphereOptions& options, const std::vector
   }
 }
 
-void require(const Brdf& brdf, const SphereOptions& options) {
-  if (!brdf.traits().isotropic) throw std::invalid_argument("render_sphere: the BRDF must be isotropic");
+}  // namespace
+
+void require_sphere_options(std::string_view function, const SphereOptions& options) {
   if (options.size < 1 || options.supersampling < 1) {
-    throw std::invalid_argument("render_sphere: size and supersampling must be at least 1, got " +
+    throw std::invalid_argument(std::string(function) + ": size and supersampling must be at least 1, got " +
                                 std::to_string(options.size) + " and " + std::to_string(options.supersampling));
   }
   if (!(options.radius > 0) || !(options.light_direction.norm() > 0)) {
-    throw std::invalid_argument("render_sphere: radius and the length of light_direction must be positive");
+    throw std::invalid_argument(std::string(function) + ": radius and the length of light_direction must be positive");
   }
 }
 
-}  // namespace
-
 Image render_sphere(const Brdf& brdf, const SphereOptions& options) {
-  require(brdf, options);
+  if (!brdf.traits().isotropic) throw std::invalid_argument("render_sphere: the BRDF must be isotropic");
+  require_sphere_options("render_sphere", options);
   const int count = std::max(32, options.size * 5 / 8);
   ProgressCounter counter(options.progress, count + options.size);
   const std::vector<Ring> rings = shade_rings(brdf, options, count, counter);

@@ -1,14 +1,14 @@
-#include "brdf/render/sphere.hpp"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "brdf/analytic/ggx.hpp"
 #include "brdf/analytic/lambert.hpp"
+#include "brdf/render/turned_sphere.hpp"
 #include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
@@ -159,6 +159,33 @@ TEST(Sphere, RefusesWhatItCannotShow) {
   const test::FunctionBrdf brushed([](const Vec3&, const Vec3&) -> Rgb { return Rgb::Zero(); },
                                    {.reciprocal = true, .isotropic = false});
   EXPECT_THROW((void)render_sphere(brushed), std::invalid_argument);
+}
+
+TEST(TurnedSphere, IsTheOrdinaryOneForIsotropicMaterials) {
+  constexpr double kTolerance = 0.01;  // of the brightest pixel: other nodes, the sky once a pixel
+  SphereOptions options;
+  options.size = 40;
+  const Ggx gloss({0.2, 0.5, 0.8}, 0.3);
+  const Image plain = render_sphere(gloss, options), turned = render_turned_sphere(gloss, options);
+  const float brightest = *std::max_element(plain.rgb.begin(), plain.rgb.end());
+  for (std::size_t n = 0; n < plain.rgb.size(); ++n) {
+    EXPECT_NEAR(static_cast<double>(turned.rgb[n] / brightest), static_cast<double>(plain.rgb[n] / brightest),
+                kTolerance)
+        << n;
+  }
+}
+
+TEST(TurnedSphere, FollowsTheGrainAndNotTheThreads) {
+  SphereOptions options;
+  options.size = 24;
+  options.nodes = {.polar = 32, .azimuth = 32};
+  const Ggx along({0.5, 0.5, 0.5}, 0.1, 0.4), across({0.5, 0.5, 0.5}, 0.4, 0.1);
+  const Image one = render_turned_sphere(along, options), other = render_turned_sphere(across, options);
+  EXPECT_NE(one.rgb, other.rgb);
+  const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(one.rgb, render_turned_sphere(along, options).rgb);
+  options.size = 0;
+  EXPECT_THROW((void)render_turned_sphere(along, options), std::invalid_argument);
 }
 
 }  // namespace
