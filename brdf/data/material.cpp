@@ -35,6 +35,7 @@ struct RglFile {
     MeasuredTable mean = isotropic_mean(RglBrdf(material), name, Provenance::measured);
     mean.report.negative_share = material->negative_share();
     mean.report.median_asymmetry = median_asymmetry(*material);
+    mean.report.isotropy_deviation = isotropy_deviation;
     return mean;
   }
 };

@@ -33,7 +33,8 @@ struct ImportReport {
   double negative_share = 0;  ///< share of stored values below 0, taken as 0
   double median_asymmetry =
       0;  ///< median over cells of |f(wi,wo) - f(wo,wi)| / mean, channels summed, before symmetrising
-  double mirror_asymmetry = 0;  ///< median over cells of |f(phi_d) - f(pi - phi_d)| / mean
+  double mirror_asymmetry = 0;    ///< median over cells of |f(phi_d) - f(pi - phi_d)| / mean
+  double isotropy_deviation = 0;  ///< of the data over four coordinates that the table is the mean of
 };
 
 /// f_r [1/sr] in three planes and one mask. Masked (invalid) cells hold 0 and take no part in fits and error measures.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "brdf/model/model_io.hpp"
+#include "brdf/study/anisotropic_budget.hpp"
 #include "brdf/study/metrics.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/command.hpp"
@@ -53,18 +54,36 @@ Json json_fits(const brdf::PaperFit& fit) {
   return rows;
 }
 
-void print_json(const brdf::StoredBrdf& stored, const brdf::MeasuredTable& table, const std::string& family,
-                const std::string& mode, Json more) {
-  const brdf::BrdfPtr model = stored.brdf();
-  const brdf::CellErrors errors = brdf::cell_errors(table, brdf::predict(*model, table));
-  Json json = {{"material", table.name},
-               {"family", family},
+void print_json(const brdf::StoredBrdf& stored, const brdf::CellErrors& errors, const std::string& mode,
+                const Json& more) {
+  Json json = {{"material", stored.material},
                {"mode", mode},
-               {"bytes", model->bytes()},
+               {"bytes", stored.brdf()->bytes()},
                {"log1p_mae", errors.log1p_mae.mean()},
                {"logrel_mae", errors.logrel_mae.mean()}};
   json.update(more);
   std::cout << json.dump() << '\n';
+}
+
+brdf::CellErrors errors_of(const brdf::StoredBrdf& stored, const brdf::MeasuredTable& table) {
+  return brdf::cell_errors(table, brdf::predict(*stored.brdf(), table));
+}
+
+/// What the chosen model of a front says of itself.
+template <class Point>
+Json json_point(const Point& point) {
+  return {{"objective", point.fit.objective},
+          {"evaluations", point.fit.evaluations},
+          {"status", point.fit.converged ? "converged" : "evaluations spent"},
+          {"eval_ns", point.eval_ns},
+          {"fit_s", point.fit_s}};
+}
+
+/// The budget of a fit where nothing was asked for.
+brdf::Budget usual(brdf::Budget budget) {
+  constexpr double kBytes = 4096;
+  if (std::isinf(budget.max_bytes) && budget.max_error == 0) budget.max_bytes = kBytes;
+  return budget;
 }
 
 void run_paper(const Options& options, const brdf::MeasuredTable& table, bool json) {
@@ -74,40 +93,68 @@ void run_paper(const Options& options, const brdf::MeasuredTable& table, bool js
       .material = table.name, .provenance = table.provenance, .model = fit.brdf, .method = options.fit.paper.method};
   write_file(options.output, to_json(stored));
   if (!json) return print_fits(fit);
-  print_json(stored, table, family.name, "paper", {{"fits", json_fits(fit)}});
+  print_json(stored, errors_of(stored, table), "paper", {{"family", family.name}, {"fits", json_fits(fit)}});
 }
 
 void run_refined(const Options& options, const brdf::MeasuredTable& table, bool json) {
   const FamilyInfo& family = families::resolve(options.family.empty() ? "independence" : options.family);
   brdf::RefinedFitOptions refined = options.fit.refined;
   refined.families = {family};
-  brdf::Budget budget = options.fit.budget;
-  if (std::isinf(budget.max_bytes) && budget.max_error == 0) {
-    constexpr double kUsual = 4096;
-    budget.max_bytes = kUsual;
-  }
   const StepLine steps;
-  const brdf::BudgetChoice choice = brdf::choose_model(
-      table, budget, refined, [&](const std::string& what) { steps.show(table.name + ": " + what); });
+  const brdf::BudgetChoice choice =
+      brdf::choose_model(table, usual(options.fit.budget), refined,
+                         [&](const std::string& what) { steps.show(table.name + ": " + what); });
   const brdf::FrontPoint& point = choice.front[choice.chosen];
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
   write_file(options.output, to_json(stored));
+  const double deviation = table.report.isotropy_deviation;
   if (!json) {
+    if (deviation > 0) std::cout << "isotropy deviation " << digits(deviation) << ": fitted as isotropic\n\n";
     std::cout << to_markdown(choice);
     return;
   }
-  print_json(stored, table, family.name, "refined",
-             {{"objective", point.fit.objective},
-              {"evaluations", point.fit.evaluations},
-              {"status", point.fit.converged ? "converged" : "evaluations spent"},
-              {"eval_ns", point.eval_ns},
-              {"fit_s", point.fit_s}});
+  Json more = {{"family", family.name}};
+  more.update(json_point(point));
+  if (deviation > 0) more["isotropy_deviation"] = deviation;
+  print_json(stored, errors_of(stored, table), "refined", more);
+}
+
+void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table, bool json) {
+  if (!options.family.empty() && options.family != "independence") {
+    throw std::invalid_argument("--family " + options.family + ": the lobes of an anisotropic model have no copula");
+  }
+  const StepLine steps;
+  const brdf::AnisotropicChoice choice = brdf::choose_anisotropic(
+      table, usual(options.fit.budget),
+      {.objective = options.fit.refined.objective, .measure = options.fit.measure, .bits = options.fit.refined.bits},
+      [&](const std::string& what) { steps.show(table.name + ": " + what); });
+  const brdf::AnisotropicPoint& point = choice.front[choice.chosen];
+  const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
+  write_file(options.output, to_json(stored));
+  if (!json) {
+    std::cout << "isotropy deviation " << digits(table.report.isotropy_deviation) << ": fitted as anisotropic\n\n"
+              << to_markdown(choice);
+    return;
+  }
+  Json more = json_point(point);
+  more["isotropy_deviation"] = table.report.isotropy_deviation;
+  print_json(stored, brdf::cell_errors(table, *point.fit.brdf), "anisotropic", more);
+}
+
+void run(const Options& options, bool json) {
+  if (!options.fit.is_refined()) {
+    return run_paper(options, *load_table(options.material, options.fit.provenance), json);
+  }
+  const brdf::Material material = load_any_table(options.material, options.fit.provenance);
+  if (const auto* table = std::get_if<brdf::AnisotropicTable>(&material)) return run_anisotropic(options, *table, json);
+  run_refined(options, std::get<brdf::MeasuredTable>(material), json);
 }
 
 }  // namespace
 
 void add_brdf_fit(CLI::App& parent, Common& common) {
-  CLI::App* command = parent.add_subcommand("fit", "fit a model to a material");
+  CLI::App* command = parent.add_subcommand(
+      "fit", "fit a model to a material; refined fits take the anisotropic model where the material is");
   const auto options = std::make_shared<Options>();
   add_material(*command, options->material);
   command->add_option("--family", options->family,
@@ -119,8 +166,7 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
   command->add_option("--max-ns", options->fit.budget.max_ns, "refined: nanoseconds an RGB value in a batch, at most");
   finish_command(*command, common, [command, options, &common] {
     settle_fit_options(*command, options->fit);
-    const auto table = load_table(options->material, options->fit.provenance);
-    options->fit.is_refined() ? run_refined(*options, *table, common.json) : run_paper(*options, *table, common.json);
+    run(*options, common.json);
   });
 }
 

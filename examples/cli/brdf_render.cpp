@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "brdf/render/sphere.hpp"
+#include "brdf/render/turned_sphere.hpp"
 #include "copula/error.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
@@ -26,7 +26,9 @@ void run(const Options& options, bool json) {
   sphere.size = options.size;
   sphere.swap_directions = options.swap;
   sphere.progress = progress_bar("rendering");
-  const brdf::Image image = brdf::render_sphere(*load_isotropic_brdf(options.material), sphere);
+  const brdf::BrdfPtr material = load_brdf(options.material);
+  const brdf::Image image = material->traits().isotropic ? brdf::render_sphere(*material, sphere)
+                                                         : brdf::render_turned_sphere(*material, sphere);
   if (extension == ".exr") {
     brdf::write_exr(options.output, image);
   } else {
@@ -38,7 +40,8 @@ void run(const Options& options, bool json) {
 }  // namespace
 
 void add_brdf_render(CLI::App& parent, Common& common) {
-  CLI::App* command = parent.add_subcommand("render", "a picture of the material");
+  CLI::App* command = parent.add_subcommand(
+      "render", "a picture of the material; of an anisotropic one as if turned on a lathe about the vertical");
   const auto options = std::make_shared<Options>();
   add_material(*command, options->material);
   command->add_option("--scene", options->scene, "what is lit")

@@ -7,7 +7,6 @@
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/data/anisotropic_brdf.hpp"
 #include "brdf/data/isotropy.hpp"
-#include "brdf/data/material.hpp"
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/model/model_io.hpp"
 
@@ -21,6 +20,12 @@ std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path, b
     throw brdf::anisotropic_error(path, brdf::isotropy_deviation(*brdf::brushed_metal()));
   return std::make_shared<const brdf::MeasuredTable>(
       path.empty() || path == "synthetic" ? brdf::builtin_material() : brdf::load_material(path, binary_provenance));
+}
+
+brdf::Material load_any_table(const std::string& path, brdf::Provenance binary_provenance) {
+  if (path == brdf::kAnisotropicSynthetic) return brdf::builtin_anisotropic_material();
+  if (path.empty() || path == "synthetic") return brdf::builtin_material();
+  return brdf::read_material(path, binary_provenance);
 }
 
 brdf::BrdfPtr load_brdf(const std::string& path) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "brdf/data/material.hpp"
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/progress.hpp"
 
@@ -21,6 +22,9 @@ void add_material(CLI::App& command, std::string& path);
 /// material.
 [[nodiscard]] std::shared_ptr<const brdf::MeasuredTable> load_table(
     const std::string& path, brdf::Provenance binary_provenance = brdf::Provenance::unknown);
+
+/// A material on three coordinates where it is isotropic, on four where not. @throws FileError.
+[[nodiscard]] brdf::Material load_any_table(const std::string& path, brdf::Provenance binary_provenance);
 
 /// A fitted model (.json), or any material, read between its cell centres or as its file says.
 [[nodiscard]] brdf::BrdfPtr load_brdf(const std::string& path);

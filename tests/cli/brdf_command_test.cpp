@@ -91,12 +91,44 @@ TEST_F(BrdfCommand, AnisotropicMaterialsAreRefusedWhereIsotropicOnesAreNeeded) {
   for (const auto& [material, deviation] : {std::pair("synthetic-anisotropic", "0.66"), {"gloss.bsdf", "0.40"}}) {
     const std::string reason = std::string(material) + ": is anisotropic (isotropy deviation " + deviation +
                                "); this needs an isotropic material";
-    for (const std::string command : {"albedo MATERIAL", "fit MATERIAL -o model.json", "render MATERIAL -o a.exr",
+    for (const std::string command : {"albedo MATERIAL", "fit MATERIAL --mode paper -o model.json",
                                       "convert MATERIAL a.binary", "compare MATERIAL --out out"}) {
       std::string arguments = "brdf " + command;
       expect_refused(arguments.replace(arguments.find("MATERIAL"), 8, material), reason);
     }
   }
+}
+
+TEST_F(BrdfCommand, AnisotropicMaterialsAreFittedAndDrawn) {
+  const brdf::BrdfPtr metal = brdf::brushed_metal();
+  write("brushed.bsdf", test::tensor_file(test::AnisotropicBsdf(*metal, 0.12, 0.40, {.folds = 4}).fields()));
+  const Result fit = run("brdf fit brushed.bsdf --max-bytes 600 -o model.json --json");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  const auto document = nlohmann::json::parse(fit.out);
+  EXPECT_EQ(document["mode"], "anisotropic");
+  EXPECT_LE(document["bytes"].get<int>(), 600);
+  EXPECT_LT(document["log1p_mae"].get<double>(), 0.01);
+  EXPECT_NEAR(document["isotropy_deviation"].get<double>(), 0.66, 0.02);
+  write("in.csv", "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0.6,0,0.8,-0.48,0.36,0.8\n");
+  const Result eval = run("brdf eval model.json --directions in.csv");
+  ASSERT_EQ(eval.status, 0) << eval.err;
+  const double expected = metal->eval(brdf::Vec3(-0.48, 0.36, 0.8), brdf::Vec3(0.6, 0, 0.8))[1];
+  EXPECT_NEAR(parse_csv(eval.out, "stdout").values(0, 1) / expected, 1, 0.1);
+  ASSERT_EQ(run("brdf render model.json --size 12 -o a.exr").status, 0);
+  ASSERT_EQ(run("brdf render model.json --size 12 --swap --threads 1 -o b.exr").status, 0);
+  EXPECT_TRUE(read("a.exr") == read("b.exr"));
+  expect_refused("brdf fit synthetic-anisotropic --family frank -o model.json",
+                 "--family frank: the lobes of an anisotropic model have no copula");
+}
+
+TEST_F(BrdfCommand, IsotropicMaterialsInAnisotropicFilesAreFittedAsIsotropic) {
+  const brdf::Ggx gloss({0.2, 0.5, 0.8}, 0.3);
+  write("gloss.bsdf", test::tensor_file(test::AnisotropicBsdf(gloss, 0.3, 0.3, {.folds = 4}).fields()));
+  const Result fit = run("brdf fit gloss.bsdf --max-bytes 600 -o model.json");
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_EQ(fit.out.rfind("isotropy deviation 0.0", 0), 0U) << fit.out;
+  EXPECT_NE(fit.out.find(": fitted as isotropic\n"), std::string::npos) << fit.out;
+  EXPECT_NE(read("model.json").find("\"mode\":\"refined\""), std::string::npos);
 }
 
 TEST_F(BrdfCommand, EvalRefusesBadDirections) {
