@@ -66,9 +66,10 @@ Column Copula::evaluate(const char* function, Quantity quantity, const PointsRef
     const auto rows = u.middleRows(first, count);
     auto values = out.segment(first, count);
     const Answered answered = quick_into(quantity, accuracy, rows, values.data());
-    if (answered == Answered::all) return;  // which tells that the rows are in the unit cube
-    if (!is_in_unit_cube(rows)) require_unit_cube(function, "u", u);
-    answered == Answered::some ? fill_left(quantity, rows, values) : standard_into(quantity, rows, values);
+    if (answered == Answered::all) return;  // an answer tells that the row is in the unit cube
+    const bool inside = answered == Answered::some ? fill_left(quantity, rows, values) : is_in_unit_cube(rows);
+    if (!inside) require_unit_cube(function, "u", u);
+    if (answered == Answered::none) standard_into(quantity, rows, values);
   });
   return out;
 }
@@ -78,15 +79,22 @@ Answered Copula::quick_into(Quantity /*quantity*/, Accuracy /*accuracy*/, const 
   return Answered::none;
 }
 
-/// The rows whose value is NaN.
-void Copula::fill_left(Quantity quantity, const PointsRef& u, ColumnOut out) const {
+bool Copula::fill_left(Quantity quantity, const PointsRef& u, ColumnOut out) const {
+  constexpr Index kBlock = 64;
   std::vector<Index> left;
-  for (Index i = 0; i < out.size(); ++i) {
-    if (std::isnan(out(i))) left.push_back(i);
+  for (Index first = 0; first < out.size(); first += kBlock) {
+    const Index count = std::min(kBlock, out.size() - first);
+    if (!std::isnan(out.segment(first, count).sum())) continue;
+    for (Index i = first; i < first + count; ++i) {
+      if (std::isnan(out(i))) left.push_back(i);
+    }
   }
-  Column answers(static_cast<Index>(left.size()));
-  standard_into(quantity, u(left, Eigen::all), answers);
+  const Points rows = u(left, Eigen::all);
+  if (!is_in_unit_cube(rows)) return false;
+  Column answers(rows.rows());
+  standard_into(quantity, rows, answers);
   out(left) = answers;
+  return true;
 }
 
 void Copula::standard_into(Quantity quantity, const PointsRef& u, const ColumnOut& out) const {

@@ -128,7 +128,8 @@ class Copula {
 
   // A public call of this name. Precondition: the number of columns.
   [[nodiscard]] Column evaluate(const char* function, Quantity quantity, const PointsRef& u, Accuracy accuracy) const;
-  void fill_left(Quantity quantity, const PointsRef& u, ColumnOut out) const;
+  // Answers the rows whose value is NaN, unless one of them is outside the unit cube: false.
+  [[nodiscard]] bool fill_left(Quantity quantity, const PointsRef& u, ColumnOut out) const;
 
   // Makes uniforms, all but the leftmost fixed columns, points of the copula.
   void invert(Points& u, Index fixed) const;

@@ -39,7 +39,7 @@ struct Sums {
     Sum<D> growths(d), log_sum(d);
     for (Index k = 0; k < count; ++k) {
       inside = hn::And(inside, rows.inside(k));
-      const Vec<D> log_u = rows.log_of(k), growth_u = expm1(d, hn::Mul(hn::Set(d, -c.theta), log_u));
+      const Vec<D> log_u = log(d, rows[k]), growth_u = expm1(d, hn::Mul(hn::Set(d, -c.theta), log_u));
       if (few) {
         growth = hn::Add(growth, growth_u);
         logs = hn::Add(logs, log_u);
@@ -55,7 +55,22 @@ struct Sums {
 
   Vec<D> growth, logs;
   Mask<D> inside;
+
+  /// At least log(1 + growth): prod x_i >= 1 + sum (x_i - 1) for x_i >= 1, with equality for one.
+  HWY_INLINE Vec<D> log_bound(D d, const KernelConstants& c, Index count) const {
+    if (count <= 2) return hn::Mul(hn::Set(d, -c.theta), logs);
+    return log(d, hn::Add(growth, hn::Set(d, 1.0)));
+  }
 };
+
+/// What the rounding of u to single precision adds to the relative error of 1 + growth and, a coordinate, to the error
+/// of log u, in units.
+template <class D>
+HWY_INLINE double growth_rounding(const KernelConstants& c) {
+  return Precision<D>::kSingle ? c.theta : 0;
+}
+template <class D>
+constexpr double kLogRounding = Precision<D>::kSingle ? 1 : 0;
 
 /// Error of log1p(x) in units of 2^-52, x of relative error e (1 + log1p(x)), by x/(1+x) <= min(1, log1p(x)).
 template <class D>
@@ -72,7 +87,8 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const Vec<D> log_sum = log1p(d, sums.growth);
   const Vec<D> front = hn::NegMulAdd(hn::Set(d, 1 + c.theta), sums.logs, hn::Set(d, rising));
   const Vec<D> value = hn::NegMulAdd(hn::Set(d, power), log_sum, front);
-  const Vec<D> of_logs = hn::MulAdd(hn::Set(d, -3 * (1 + c.theta)), sums.logs, hn::Set(d, 2 * rising));
+  const double of_u = kLogRounding<D> * n * (1 + c.theta) + power * growth_rounding<D>(c);
+  const Vec<D> of_logs = hn::MulAdd(hn::Set(d, -3 * (1 + c.theta)), sums.logs, hn::Set(d, 2 * rising + of_u));
   const Vec<D> error = hn::MulAdd(hn::Set(d, power), error_of_log1p(d, log_sum, 2.5), of_logs);
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, sums.inside);
 }
@@ -89,7 +105,8 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
   const Vec<D> y = hn::Mul(hn::Set(d, -power), log_growth);
   // Of E: 1.5 + 2 exponent e^exponent/E; of S: 2.5 (1 + log S) at most, log S <= exponent sizes of the given.
   const Vec<D> of_ratio =
-      hn::MulAdd(hn::Set(d, 2.0), exponent, hn::MulAdd(hn::Set(d, 2.5), log(d, sum), hn::Set(d, 8.0)));
+      hn::MulAdd(hn::Set(d, 2.0), exponent,
+                 hn::MulAdd(hn::Set(d, 2.5), given.log_bound(d, c, last), hn::Set(d, 8 + growth_rounding<D>(c))));
   const Vec<D> share = hn::Min(log_growth, hn::Set(d, 1.0));
   const Vec<D> error = hn::MulAdd(hn::Set(d, power), hn::Mul(of_ratio, share), hn::Mul(hn::Set(d, -2.0), y));
   return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kHTolerance,
@@ -106,8 +123,8 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
   const Vec<D> exponent = hn::Mul(hn::Set(d, -1 / power), rows.log_of(last));
   const Vec<D> growth = hn::Mul(expm1(d, exponent), sum), log_growth = log1p(d, growth);
   const Vec<D> y = hn::Mul(hn::Set(d, -1 / c.theta), log_growth);
-  const Vec<D> of_growth =
-      hn::MulAdd(hn::Set(d, 2.5), log(d, sum), hn::MulAdd(hn::Set(d, 2.0), exponent, hn::Set(d, 8.0)));
+  const Vec<D> of_growth = hn::MulAdd(hn::Set(d, 2.5), given.log_bound(d, c, last),
+                                      hn::MulAdd(hn::Set(d, 2.0), exponent, hn::Set(d, 8 + growth_rounding<D>(c))));
   const Vec<D> share = hn::Min(log_growth, hn::Set(d, 1.0));
   const Vec<D> error = hn::MulAdd(hn::Set(d, 1 / c.theta), hn::Mul(of_growth, share), hn::Mul(hn::Set(d, -2.0), y));
   return probability(d, tail, y, hn::Mul(hn::Set(d, Precision<D>::kUnit), error), kInverseTolerance,
@@ -115,6 +132,8 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
 }
 
 struct Formulas {
+  static constexpr int kPartsSingle = 4;
+
   static bool answers_log_pdf([[maybe_unused]] const KernelConstants& c, [[maybe_unused]] Index columns) {
     return true;
   }

@@ -163,6 +163,8 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
 }
 
 struct Formulas {
+  static constexpr int kPartsSingle = 4;
+
   static bool answers_log_pdf(const KernelConstants& c, Index columns) {
     return columns == 2 || (!c.negative && c.polynomial.usable());
   }

@@ -37,14 +37,15 @@ template <class D>
 constexpr double kLastStep = Precision<D>::kSingle ? 2e-3 : 1e-6;
 
 /// log c = (theta-1) (sum log x_i - d log s) + sum x_i - s + log R_d(1/s), s^theta = sum x_i^theta.
-template <class D>
-HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
-  const auto n = static_cast<double>(rows.size());
+template <bool kPair, class D>
+HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
+  const Index size = kPair ? 2 : rows.size();
+  const auto n = static_cast<double>(size);
   const double excess = c.theta - 1;
-  Sum<D> powers(d), x_sum(d), log_sum(d);
+  Sum<D, kPair> powers(d), x_sum(d), log_sum(d);
   Vec<D> sizes = hn::Zero(d);  // sum |log x_i|
   auto inside = rows.inside(0);
-  for (Index k = 0; k < rows.size(); ++k) {
+  for (Index k = 0; k < size; ++k) {
     inside = hn::And(inside, rows.inside(k));
     const Vec<D> x = hn::Neg(rows.log_of(k)), log_x = log(d, x), exponent = hn::Mul(hn::Set(d, c.theta), log_x);
     powers.add(d, exp(d, exponent));
@@ -68,6 +69,12 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const Vec<D> steps = hn::Set(d, n + 2 + c.polynomial.relative_error / Precision<D>::kUnit);
   const Vec<D> error = hn::MulAdd(of_log_s, weight, hn::Add(hn::Add(of_ratios, of_rest), steps));
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
+  if (rows.size() == 2) return log_pdf_rows<true>(d, c, rows);
+  return log_pdf_rows<false>(d, c, rows);
 }
 
 /// -log h = x expm1(l) + (theta-1) l, l = log1p((y/x)^theta) / theta.
@@ -119,6 +126,8 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
 }
 
 struct Formulas {
+  static constexpr int kPartsSingle = 4;
+
   static bool answers_log_pdf(const KernelConstants& c, [[maybe_unused]] Index columns) {
     return c.polynomial.usable();
   }

@@ -51,13 +51,14 @@ struct Weight {
 };
 
 /// log c = (d-1) log theta + (theta-1) sum log(1-u_i) - (1 - 1/theta) log w + log R_d(P/w), P = prod p_i, w = 1 - P.
-template <class D>
-HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
-  const auto n = static_cast<double>(rows.size());
-  Product<D> product(d);
-  Sum<D> log_sum(d);
+template <bool kPair, class D>
+HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
+  const Index size = kPair ? 2 : rows.size();
+  const auto n = static_cast<double>(size);
+  Product<D, kPair> product(d);
+  Sum<D, kPair> log_sum(d);
   auto inside = rows.inside(0);
-  for (Index k = 0; k < rows.size(); ++k) {
+  for (Index k = 0; k < size; ++k) {
     inside = hn::And(inside, rows.inside(k));
     const Weight<D> weight(d, c, rows, k);
     product.multiply(d, weight.p, weight.q);
@@ -73,6 +74,12 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
   const Vec<D> value = hn::Add(hn::Add(hn::Set(d, (n - 1) * c.log_theta), upper), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -2.5), upper, hn::Set(d, 2 * n * c.log_theta)), term.error);
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& rows) {
+  if (rows.size() == 2) return log_pdf_rows<true>(d, c, rows);
+  return log_pdf_rows<false>(d, c, rows);
 }
 
 /// log h = log p_v - (1 - 1/theta) log1p(p_u q_v / q_u).
@@ -129,6 +136,8 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
 }
 
 struct Formulas {
+  static constexpr int kPartsSingle = 4;
+
   static bool answers_log_pdf(const KernelConstants& c, [[maybe_unused]] Index columns) {
     return c.polynomial.usable();
   }

@@ -1,7 +1,9 @@
 /// Vector exp, expm1, log and log1p for one instruction set; included once for each (see Highway's foreach_target.h).
 /// D is a Highway tag of float or double lanes. Polynomials: minimax in the relative error of expm1(r) and log(1+f).
 ///
-/// Relative errors: at most 1.5 units of 2^-52 (double) or 2^-23 (float). Outside these ranges the result is NaN:
+/// Relative errors: at most 1.5 units of 2^-52 in double; in float, which is for results within 1e-5, 1.5 units of
+/// 2^-23 of the logarithms and 5 of the exponentials, whose polynomial is as short as serves. Outside these ranges the
+/// result is NaN:
 ///   exponential  x <= 709 (88); below -708 (-87) as at that end: e^x up to 3.4e-308 (1.7e-38) instead of less
 ///   log          normal positive x
 ///   log1p        1 + x normal and positive
@@ -56,8 +58,8 @@ struct Format<float> {
   static constexpr float kRound = 0x1.8p23F;
   static constexpr float kLog2E = 0x1.715476p0F, kLn2 = 0x1.63p-1F, kLn2Low = -0x1.bd0106p-13F;
   static constexpr float kLowestExponent = -87, kHighestExponent = 88;
-  static constexpr float kExp[] = {5.0000000620873937e-1F, 1.6666542793873337e-1F, 4.1666281396676965e-2F,
-                                   8.3666106010923176e-3F, 1.3946497160449339e-3F};
+  static constexpr float kExp[] = {4.9999401386018538e-1F, 1.6666831103670462e-1F, 4.1872772962970053e-2F,
+                                   8.3380928707366686e-3F};
   static constexpr float kLog[] = {6.6666776549221590e-1F, 3.9977518586604987e-1F, 2.9872400433339761e-1F};
 };
 
@@ -154,6 +156,14 @@ HWY_INLINE Vec<D> log_of_parts(D d, Vec<D> f, Vec<D> e) {
 template <class D>
 HWY_INLINE Vec<D> if_normal(D d, Vec<D> x, Vec<D> value) {
   using Limits = std::numeric_limits<hn::TFromD<D>>;
+#if HWY_TARGET == HWY_AVX3  // one instruction tells
+  constexpr int kAllOthers = 0xff;
+  if constexpr (std::is_same_v<D, hn::ScalableTag<double>>) {
+    return Vec<D>{_mm512_mask_mov_pd(value.raw, _mm512_fpclass_pd_mask(x.raw, kAllOthers), hn::NaN(d).raw)};
+  } else if constexpr (std::is_same_v<D, hn::ScalableTag<float>>) {
+    return Vec<D>{_mm512_mask_mov_ps(value.raw, _mm512_fpclass_ps_mask(x.raw, kAllOthers), hn::NaN(d).raw)};
+  }
+#endif
   const auto normal = hn::And(hn::Ge(x, hn::Set(d, (Limits::min)())), hn::Le(x, hn::Set(d, (Limits::max)())));
   return hn::IfThenElse(normal, value, hn::NaN(d));
 }

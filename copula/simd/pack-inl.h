@@ -30,9 +30,13 @@ struct Vec {
   hn::Vec<typename D::Part> part[D::kParts];
 };
 
+/// Parts apart from each other: a compiler would else keep masks of few bits together in one integer.
 template <class D>
 struct Mask {
-  hn::Mask<typename D::Part> part[D::kParts];
+  struct alignas(16) Part {
+    hn::Mask<typename D::Part> mask;
+  };
+  Part part[D::kParts];
 };
 
 /// Numbers in a pack.
@@ -64,12 +68,12 @@ HWY_INLINE Index size(D) {
     SKLAR_FOR_EACH_PART result.part[i] = hn::NAME(a.part[i], b.part[i], c.part[i]); \
     return result;                                                                  \
   }
-#define SKLAR_LIFT_COMPARISON(NAME)                                      \
-  template <class D>                                                     \
-  HWY_INLINE Mask<D> NAME(const Vec<D>& a, const Vec<D>& b) {            \
-    Mask<D> result;                                                      \
-    SKLAR_FOR_EACH_PART result.part[i] = hn::NAME(a.part[i], b.part[i]); \
-    return result;                                                       \
+#define SKLAR_LIFT_COMPARISON(NAME)                                           \
+  template <class D>                                                          \
+  HWY_INLINE Mask<D> NAME(const Vec<D>& a, const Vec<D>& b) {                 \
+    Mask<D> result;                                                           \
+    SKLAR_FOR_EACH_PART result.part[i].mask = hn::NAME(a.part[i], b.part[i]); \
+    return result;                                                            \
   }
 #define SKLAR_LIFT_FUNCTION(NAME)                                                                  \
   template <class D>                                                                               \
@@ -197,35 +201,35 @@ HWY_INLINE void store(const Vec<D>& x, D, double* to) {
 template <class D>
 HWY_INLINE Mask<D> And(const Mask<D>& a, const Mask<D>& b) {
   Mask<D> result;
-  SKLAR_FOR_EACH_PART result.part[i] = hn::And(a.part[i], b.part[i]);
+  SKLAR_FOR_EACH_PART result.part[i].mask = hn::And(a.part[i].mask, b.part[i].mask);
   return result;
 }
 
 template <class D>
 HWY_INLINE Mask<D> Not(const Mask<D>& a) {
   Mask<D> result;
-  SKLAR_FOR_EACH_PART result.part[i] = hn::Not(a.part[i]);
+  SKLAR_FOR_EACH_PART result.part[i].mask = hn::Not(a.part[i].mask);
   return result;
 }
 
 template <class D>
 HWY_INLINE bool AllFalse(D, const Mask<D>& a) {
   bool none = true;
-  SKLAR_FOR_EACH_PART none = hn::AllFalse(typename D::Part(), a.part[i]) && none;
+  SKLAR_FOR_EACH_PART none = hn::AllFalse(typename D::Part(), a.part[i].mask) && none;
   return none;
 }
 
 template <class D>
 HWY_INLINE Vec<D> IfThenElse(const Mask<D>& mask, const Vec<D>& yes, const Vec<D>& no) {
   Vec<D> result;
-  SKLAR_FOR_EACH_PART result.part[i] = hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]);
+  SKLAR_FOR_EACH_PART result.part[i] = hn::IfThenElse(mask.part[i].mask, yes.part[i], no.part[i]);
   return result;
 }
 
 template <class D>
 HWY_INLINE Vec<D> IfThenElseZero(const Mask<D>& mask, const Vec<D>& yes) {
   Vec<D> result;
-  SKLAR_FOR_EACH_PART result.part[i] = hn::IfThenElseZero(mask.part[i], yes.part[i]);
+  SKLAR_FOR_EACH_PART result.part[i] = hn::IfThenElseZero(mask.part[i].mask, yes.part[i]);
   return result;
 }
 

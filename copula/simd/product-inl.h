@@ -14,8 +14,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace sklar::simd::HWY_NAMESPACE::formulas {
 
-/// x = s prod a_i and w = 1 - x, 0 < s <= 1, from the a_i and the 1 - a_i, neither of which cancels.
+/// x, w, and whether they come from the 1 - a_i.
 template <class D>
+struct Parts {
+  Vec<D> x, w;
+  Mask<D> near_one;
+};
+
+/// x = s prod a_i and w = 1 - x, 0 < s <= 1, from the a_i and the 1 - a_i, neither of which cancels. kPlain: of two.
+template <class D, bool kPlain = false>
 class Product {
  public:
   explicit Product(D d) : value_(d), complement_(hn::Zero(d)) {}
@@ -30,14 +37,8 @@ class Product {
 
   HWY_INLINE Vec<D> complement() const { return complement_; }
 
-  /// x, w, and whether they come from the 1 - a_i.
-  struct Parts {
-    Vec<D> x, w;
-    Mask<D> near_one;
-  };
-
   /// @param rest 1 - s.
-  HWY_INLINE Parts parts(D d, double s, double rest) const {
+  HWY_INLINE Parts<D> parts(D d, double s, double rest) const {
     const Vec<D> one = hn::Set(d, 1.0);
     const Vec<D> x = hn::Mul(hn::Set(d, s), value_.value());
     const Vec<D> w = hn::MulAdd(hn::Set(d, s), complement_, hn::Set(d, rest));
@@ -49,15 +50,15 @@ class Product {
   // Below it the sum of complements, of a smaller error than the product, leaves the smaller error of x/w.
   static constexpr double kNearOne = 0.75;
 
-  ExactProduct<D> value_;
+  ExactProduct<D, kPlain> value_;
   Vec<D> complement_;
 };
 
 /// log R(x/w) - b log w, 0 <= b <= 1, and its error in units of 2^-52.
 /// @param of_x, of_w the relative errors of x and of w where they are computed, in these units.
 template <class D>
-HWY_INLINE Estimate<D> log_ratio_term(D d, const Coefficients& r, const typename Product<D>::Parts& parts, double b,
-                                      Vec<D> of_x, Vec<D> of_w) {
+HWY_INLINE Estimate<D> log_ratio_term(D d, const Coefficients& r, const Parts<D>& parts, double b, Vec<D> of_x,
+                                      Vec<D> of_w) {
   const LogPolynomial<D> polynomial = log_polynomial(d, r, parts.x, parts.w);
   const Vec<D> log_w = hn::Mul(hn::Set(d, b), log(d, parts.w));
   // With 1 - x for w and the reverse the derivative in log x is slope / w + b x / w, that in log w by w/x of it.

@@ -62,7 +62,7 @@ class Columns {
 
   /// Whether the coordinate is a normal number below 1.
   HWY_INLINE Mask<D> inside(Index k, double lowest = Precision<D>::kSmallest) const {
-    return hn::And(hn::Ge((*this)[k], hn::Set(D(), lowest)), hn::Gt(upper(k), hn::Zero(D())));
+    return hn::And(hn::Ge((*this)[k], hn::Set(D(), lowest)), hn::Lt((*this)[k], hn::Set(D(), 1.0)));
   }
 
  private:
@@ -111,13 +111,13 @@ HWY_INLINE Vec<D> sum_rounded(D, Vec<D> a, Vec<D> b, Vec<D>& lost) {
   return sum;
 }
 
-/// A sum that loses no digits, by Knuth's two-sum.
-template <class D>
+/// A sum that loses no digits, by Knuth's two-sum, or where kPlain one of two terms, which needs no such care.
+template <class D, bool kPlain = false>
 class Sum {
  public:
   explicit Sum(D d) : sum_(hn::Zero(d)), lost_(sum_) {}
-  HWY_INLINE void add(D d, Vec<D> x) { sum_ = sum_rounded(d, sum_, x, lost_); }
-  HWY_INLINE Vec<D> value() const { return hn::Add(sum_, lost_); }
+  HWY_INLINE void add(D d, Vec<D> x) { sum_ = kPlain ? hn::Add(sum_, x) : sum_rounded(d, sum_, x, lost_); }
+  HWY_INLINE Vec<D> value() const { return kPlain ? sum_ : hn::Add(sum_, lost_); }
 
  private:
   Vec<D> sum_, lost_;
@@ -138,18 +138,23 @@ HWY_INLINE Vec<D> lost_of_product([[maybe_unused]] D d, Vec<D> a, Vec<D> b, Vec<
 #endif
 }
 
-/// A product that loses no digits, of factors x + lost with lost about the rounding of x.
-template <class D>
+/// A product that loses no digits, of factors x + lost with lost about the rounding of x, or where kPlain one of two
+/// factors without what they lost.
+template <class D, bool kPlain = false>
 class ExactProduct {
  public:
   explicit ExactProduct(D d) : product_(hn::Set(d, 1.0)), lost_(hn::Zero(d)) {}
   HWY_INLINE void multiply(D d, Vec<D> x, Vec<D> lost) {
     const Vec<D> next = hn::Mul(product_, x);
+    if constexpr (kPlain) {
+      product_ = next;
+      return;
+    }
     const Vec<D> of_this = hn::MulAdd(product_, lost, lost_of_product(d, product_, x, next));
     lost_ = hn::MulAdd(lost_, x, of_this);
     product_ = next;
   }
-  HWY_INLINE Vec<D> value() const { return hn::Add(product_, lost_); }
+  HWY_INLINE Vec<D> value() const { return kPlain ? product_ : hn::Add(product_, lost_); }
 
  private:
   Vec<D> product_, lost_;
@@ -171,9 +176,8 @@ Index fill(D d, Index first, const Rows& rows, double* out, const Formula& formu
 }
 
 /// out[i] = formula(d, columns of row i). A row's value does not depend on its place.
-template <class Real, class Formula>
+template <class Real, int kParts, class Formula>
 Answered for_each_row(const Rows& rows, double* out, const Formula& formula) {
-  constexpr int kParts = 4;
   constexpr Index kMostLanes = 16, kOnStack = 16;
   using D = pack::Tag<Real, 1>;
   const D d;
@@ -201,21 +205,24 @@ Answered for_each_row(const Rows& rows, double* out, const Formula& formula) {
 /// The functions of a family in one precision. Formulas has, static:
 ///   answers_log_pdf(c, columns), answers_conditional(c, columns)   whether the formulas hold
 ///   log_pdf(d, c, columns), conditional(d, c, tail, columns), conditional_inverse(d, c, tail, columns)
+///   kPartsSingle   vectors of a pack in single precision, as many as measured best
 /// Single precision is for points of two coordinates: the coefficients of more leave its range.
 template <class Real, class Formulas, class Constants>
 constexpr KernelFunctions<Constants> functions_of() {
-  constexpr Index kMostColumns = sizeof(Real) == sizeof(float) ? 2 : std::numeric_limits<Index>::max();
+  constexpr bool kSingle = sizeof(Real) == sizeof(float);
+  constexpr Index kMostColumns = kSingle ? 2 : std::numeric_limits<Index>::max();
+  constexpr int kParts = kSingle ? Formulas::kPartsSingle : 4;
   return {.log_pdf =
               [](const Constants& c, const Rows& rows, double* out) {
                 if (rows.columns > kMostColumns || !Formulas::answers_log_pdf(c, rows.columns)) return Answered::none;
-                return for_each_row<Real>(
+                return for_each_row<Real, kParts>(
                     rows, out, [&](auto d, const auto& columns) HWY_ATTR { return Formulas::log_pdf(d, c, columns); });
               },
           .conditional =
               [](const Constants& c, const Rows& rows, Tail tail, double* out) {
                 if (rows.columns > kMostColumns || !Formulas::answers_conditional(c, rows.columns))
                   return Answered::none;
-                return for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+                return for_each_row<Real, kParts>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
                   return Formulas::conditional(d, c, tail, columns);
                 });
               },
@@ -223,7 +230,7 @@ constexpr KernelFunctions<Constants> functions_of() {
               [](const Constants& c, const Rows& rows, Tail tail, double* out) {
                 if (rows.columns > kMostColumns || !Formulas::answers_conditional(c, rows.columns))
                   return Answered::none;
-                return for_each_row<Real>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
+                return for_each_row<Real, kParts>(rows, out, [&](auto d, const auto& columns) HWY_ATTR {
                   const auto value = Formulas::conditional_inverse(d, c, tail, columns);
                   // Whether 1 is the nearest double is for the exact route to say.
                   return hn::IfThenElse(hn::Lt(value, hn::Set(d, 1.0)), value, hn::NaN(d));

@@ -90,6 +90,37 @@ TEST(JoeKernels, AnswerWithinTheToleranceNearIndependence) {
   expect_every_target_within(families::find("joe"), 2, {1.0001});
 }
 
+/// The parameters of the examples and of weak to strong dependence between them.
+std::vector<Theta> many_thetas(const FamilyInfo& family) {
+  std::vector<Theta> thetas = family.examples;
+  for (const double tau : {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.85, 0.95}) {
+    if (family.theta_from_tau && family.tau_range(2).contains(tau)) thetas.push_back(family.from_tau(2, tau));
+  }
+  return thetas;
+}
+
+// Single precision counts roundings at half their worst: its bound holds by this test, on many points.
+TEST_P(Kernels, FastIsWithinItsBoundOfStandard) {
+  if (GetParam().parameters.empty()) return;
+  for (const Theta& theta : many_thetas(GetParam())) {
+    const CopulaPtr judge = GetParam().make(2, theta);
+    const Points u = points_for(*judge, 10'000);
+    for (const Case& c : kCases) {
+      const Column expected = (*judge.*c.evaluate)(u, Accuracy::standard);
+      for_each_target([&] {
+        const Column values = (*GetParam().make(2, theta).*c.evaluate)(u, Accuracy::fast);
+        Column scale = expected.abs();
+        if (!c.relative) scale = scale.max(1);
+        const Column errors = (values == expected).select(0, (values - expected).abs() / scale);
+        Index worst;
+        ASSERT_LE(errors.maxCoeff(&worst), kFastTolerance) << GetParam().name << " " << theta[0] << ", quantity "
+                                                           << static_cast<int>(c.quantity) << " at " << u.row(worst);
+      });
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Family, Kernels, testing::ValuesIn(families::all()),
                          [](const auto& family) { return family.param.name; });
 
