@@ -58,21 +58,45 @@ View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo&
   return result;
 }
 
-}  // namespace
+constexpr Eigen::Index kBatch = 4096;
 
-double evaluation_ns(const Brdf& brdf) {
-  constexpr Eigen::Index kBatch = 4096;
+struct DirectionPairs {
+  DirectionPairs() : DirectionPairs(Rng(1)) {}
+  explicit DirectionPairs(Rng rng) : wo(uniform_hemisphere(rng, kBatch)), wi(uniform_hemisphere(rng, kBatch)) {}
+
+  Directions wo, wi;
+};
+
+/// Of nine batches after a first one. @param batch gives a sum of its values, NaN where it failed.
+template <class Batch>
+double median_ns(const Batch& batch) {
   constexpr std::size_t kBatches = 9;
-  Rng rng(1);
-  const Directions wo = uniform_hemisphere(rng, kBatch), wi = uniform_hemisphere(rng, kBatch);
   std::vector<double> times;
-  double sum = brdf.eval(wo, wi).sum();
-  for (std::size_t batch = 0; batch < kBatches; ++batch) {
+  double sum = batch();
+  for (std::size_t i = 0; i < kBatches; ++i) {
     const auto start = Clock::now();
-    sum += brdf.eval(wo, wi).sum();
+    sum += batch();
     times.push_back(seconds_since(start));
   }
   return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : median(times) / kBatch * 1e9;
+}
+
+}  // namespace
+
+double evaluation_ns(const Brdf& brdf) {
+  const DirectionPairs pairs;
+  return median_ns([&] { return brdf.eval(pairs.wo, pairs.wi).sum(); });
+}
+
+double single_evaluation_ns(const Brdf& brdf) {
+  const DirectionPairs pairs;
+  return median_ns([&] {
+    Rgb sum = Rgb::Zero();
+    for (Eigen::Index i = 0; i < pairs.wo.rows(); ++i) {
+      sum += brdf.eval(Vec3(pairs.wo.row(i).matrix()), Vec3(pairs.wi.row(i).matrix()));
+    }
+    return sum.sum();
+  });
 }
 
 Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::span<const FamilyInfo* const> families,

@@ -52,4 +52,7 @@ struct Comparison {
 /// Nanoseconds a RGB value in batches of 4096 seeded random direction pairs: median of nine batches, hot cache.
 [[nodiscard]] double evaluation_ns(const Brdf& brdf);
 
+/// The same of the same pairs one at a time.
+[[nodiscard]] double single_evaluation_ns(const Brdf& brdf);
+
 }  // namespace sklar::brdf

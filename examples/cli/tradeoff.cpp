@@ -3,22 +3,32 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "brdf/model/paper_brdf.hpp"
 #include "brdf/study/results.hpp"
 #include "copula/error.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
 #include "examples/cli/text.hpp"
+#include "examples/cli/tradeoff_brdf.hpp"
 #include "examples/cli/tradeoff_plot.hpp"
 
 namespace sklar::cli {
 namespace {
 
+/// Of the copulas: all; of the models, each of which is fitted a dozen times, two.
+constexpr const char* kModelFamilies = "independence,frank";
+
 struct Options {
-  std::string families = "all";
+  std::string families;
   TradeoffOptions measure;
+  bool models = false;
+  std::string material;
+  std::vector<int> slices = brdf::ModelTradeoffOptions().slices;
+  double max_bytes = std::numeric_limits<double>::infinity();
   std::string csv;
   std::string picture;
 };
@@ -78,12 +88,34 @@ void require_picture(const std::string& path) {
   }
 }
 
+/// Of a material: what its models cost and how near they come.
+void run_models(const Options& options, bool json) {
+  const std::vector<const FamilyInfo*> families =
+      parse_families(options.families.empty() ? kModelFamilies : options.families);
+  for (const FamilyInfo* family : families) family->require_dimension(brdf::kPaperDimension);
+  brdf::ModelTradeoffOptions measure{.slices = options.slices};
+  std::erase_if(measure.ladder, [&](const brdf::RefinedStructure& structure) {
+    return static_cast<double>(brdf::stored_bytes(structure, measure.refined.bits, true)) > options.max_bytes;
+  });
+  const auto table = load_table(options.material);
+  std::vector<brdf::ModelTradeoffRow> rows;
+  {
+    const StepLine steps;
+    rows = brdf::measure_model_tradeoff(*table, families, measure, [&](const auto& what) { steps.show(what); });
+  }
+  if (!options.csv.empty()) write_output(options.csv, to_csv(rows, table->name));
+  if (!options.picture.empty()) brdf::write_page(options.picture, to_page(rows, table->name));
+  if (json) return print_json(to_json(rows, table->name));
+  write_output("", to_table(rows));
+}
+
 void run(Options options, const Common& common) {
-  options.measure.seed = common.seed;
-  const std::vector<const FamilyInfo*> families = parse_families(options.families);
-  for (const FamilyInfo* family : families) family->require_dimension(options.measure.dim);
   require_folder(options.csv);
   require_picture(options.picture);
+  if (options.models) return run_models(options, common.json);
+  options.measure.seed = common.seed;
+  const std::vector<const FamilyInfo*> families = parse_families(options.families.empty() ? "all" : options.families);
+  for (const FamilyInfo* family : families) family->require_dimension(options.measure.dim);
   std::vector<TradeoffRow> rows;
   {
     const StepLine steps;
@@ -106,14 +138,33 @@ void run(Options options, const Common& common) {
 
 void add_tradeoff(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand(
-      "tradeoff", "measure time and error of every family, quantity and level of accuracy, on one thread");
+      "tradeoff",
+      "measure time and error: of every family, quantity and level of accuracy, or with --brdf of the models of a "
+      "material");
   const auto options = std::make_shared<Options>();
-  command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
-  command->add_option("--dim", options->measure.dim, "dimension")->capture_default_str();
-  command->add_option("--rows", options->measure.rows, "points drawn from each copula")->capture_default_str();
+  CLI::Option* material =
+      command
+          ->add_option("--brdf", options->material,
+                       "the models of this material, paper and refined, from small to large; without a name the "
+                       "built-in one")
+          ->expected(0, 1);
+  command->add_option("--families", options->families, kFamiliesHelp)
+      ->default_str(std::string("all, with --brdf ") + kModelFamilies);
+  command->add_option("--slices", options->slices, "theta_d slices of the paper's models, divisors of 90")
+      ->delimiter(',')
+      ->needs(material)
+      ->capture_default_str();
+  command->add_option("--max-bytes", options->max_bytes, "bytes of a refined model, at most")->needs(material);
+  command->add_option("--dim", options->measure.dim, "dimension")->excludes(material)->capture_default_str();
+  command->add_option("--rows", options->measure.rows, "points drawn from each copula")
+      ->excludes(material)
+      ->capture_default_str();
   command->add_option("--csv", options->csv, "write the figures here too");
   command->add_option("-o", options->picture, "draw them here, a .png or .svg");
-  finish_command(*command, common, [options, &common] { run(*options, common); });
+  finish_command(*command, common, [options, material, &common] {
+    options->models = material->count() > 0;
+    run(*options, common);
+  });
 }
 
 }  // namespace sklar::cli

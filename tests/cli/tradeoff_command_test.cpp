@@ -56,7 +56,30 @@ TEST_F(Tradeoff, TheSeedChoosesThePoints) {
   EXPECT_NE(errors("1"), errors("2"));
 }
 
+TEST_F(Tradeoff, OfModelsMarksTheBestForTheirCost) {
+  const Result result =
+      run("tradeoff --brdf --families independence --slices 1,6 --max-bytes 700 --csv m.csv -o m.png --json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto document = nlohmann::json::parse(result.out);
+  EXPECT_EQ(document["material"], "synthetic");
+  ASSERT_EQ(document["rows"].size(), 3u) << "two paper models and the smallest refined one";
+  const auto& refined = document["rows"][2];
+  EXPECT_EQ(refined["mode"], "refined");
+  EXPECT_TRUE(refined["best_for_bytes"]) << refined;
+  for (const auto& row : document["rows"]) {
+    EXPECT_GT(row["bytes"].get<double>(), 0) << row;
+    EXPECT_GT(row["single_ns"].get<double>(), 0) << row;
+    EXPECT_GE(row["log1p_mae"].get<double>(), refined["log1p_mae"].get<double>()) << row;
+  }
+  EXPECT_TRUE(read("m.csv").starts_with("material,mode,family,structure,bytes,batch_ns,")) << read("m.csv");
+  EXPECT_TRUE(read("m.png").starts_with("\x89PNG"));
+}
+
 TEST_F(Tradeoff, RefusesBadInput) {
+  expect_refused("tradeoff --brdf missing.binary", "missing.binary");
+  expect_refused("tradeoff --brdf --slices 7 --families frank", "7");
+  expect_usage_error("tradeoff --brdf --dim 3");
+  expect_usage_error("tradeoff --max-bytes 700");
   expect_refused("tradeoff --families nobody", "unknown family 'nobody'");
   expect_refused("tradeoff --families frank --dim 1", "1");
   expect_refused("tradeoff --families frank --rows 0", "n must be 1 or more, got 0");
