@@ -35,22 +35,26 @@ void require_cells(const CellTable& cells) {
   }
 }
 
-/// At most `most` rows of positive weight: all, or evenly spread ones.
+/// At most `most` rows of positive weight, rising: all, or evenly spread ones.
 std::vector<Index> subset(const ColumnRef& weights, Index rows, Index most) {
-  std::vector<Index> positive;
-  for (Index row = 0; row < weights.size(); ++row) {
-    if (weights[row] > 0) positive.push_back(row);
-  }
   const bool weighted = weights.size() > 0;
-  const Index n = weighted ? static_cast<Index>(positive.size()) : rows;
-  const auto row_at = [&](Index i) { return weighted ? positive[static_cast<std::size_t>(i)] : i; };
-  std::vector<Index> chosen;
+  const Index n = weighted ? (weights > 0).count() : rows;
+  std::vector<Index> ranks;  // among those of positive weight
   if (n <= most) {
-    for (Index i = 0; i < n; ++i) chosen.push_back(row_at(i));
+    for (Index i = 0; i < n; ++i) ranks.push_back(i);
   } else {
     for (const double position : spread_positions(most)) {
-      chosen.push_back(row_at(static_cast<Index>(position * static_cast<double>(n))));
+      ranks.push_back(static_cast<Index>(position * static_cast<double>(n)));
     }
+    std::sort(ranks.begin(), ranks.end());
+  }
+  if (!weighted) return ranks;
+  std::vector<Index> chosen;
+  Index rank = 0;
+  for (Index row = 0; chosen.size() < ranks.size(); ++row) {
+    if (!(weights[row] > 0)) continue;
+    while (chosen.size() < ranks.size() && ranks[chosen.size()] == rank) chosen.push_back(row);
+    ++rank;
   }
   return chosen;
 }

@@ -95,6 +95,27 @@ TEST(MaximumLikelihood, WeightIsMultiplicity) {
   EXPECT_NEAR(scaled.theta[0], weighted.theta[0], 1e-4 * error);
 }
 
+TEST(MaximumLikelihood, NeitherWeightsOfOneNorRowsOfNoneChangeIt) {
+  constexpr Index kRows = 30'000;  // above both the rows of a chunk and those of the start
+  const test::FamilyCase test_case = test::family_cases_near(0.5, {2}).back();
+  const Points u = simulated(test_case, kRows);
+  const FitResult expected = fit_maximum_likelihood(*test_case.family, u);
+  const double error = expected.standard_error[0];
+  const FitResult ones = fit_maximum_likelihood(*test_case.family, u, Column::Ones(kRows));
+  EXPECT_NEAR(ones.theta[0], expected.theta[0], 1e-6 * error);
+
+  Points padded = Points::Constant(2 * kRows, 2, 0.5);  // every other row without weight
+  Column weights = Column::Zero(2 * kRows);
+  for (Index i = 0; i < kRows; ++i) {
+    padded.row(2 * i + 1) = u.row(i);
+    weights[2 * i + 1] = 1;
+  }
+  const FitResult sparse = fit_maximum_likelihood(*test_case.family, padded, weights);
+  EXPECT_NEAR(sparse.theta[0], expected.theta[0], 1e-6 * error);
+  EXPECT_NEAR(sparse.log_likelihood, expected.log_likelihood, 1e-10 * std::abs(expected.log_likelihood));
+  EXPECT_NEAR(sparse.standard_error[0], error, 1e-3 * error);
+}
+
 TEST(MaximumLikelihood, DoesNotDependOnThreadsAndIsReproducible) {
   const test::FamilyCase test_case = test::family_cases_near(0.5, {2}).back();
   const Points u = simulated(test_case, 30000);
