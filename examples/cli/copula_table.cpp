@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "copula/symbolic/formula_family.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/table.hpp"
 #include "examples/cli/text.hpp"
@@ -23,10 +24,12 @@ Points points_of(std::span<Row* const> rows) {
   return points;
 }
 
+enum class Level { fast, standard, symbolic, exact };
+
 struct Options {
   std::string path;
   std::string output;
-  bool exact = false;
+  Level level = Level::standard;
   int digits = 50;
 };
 
@@ -41,8 +44,9 @@ void evaluate_exactly(const Group& group, const Copula& copula, std::span<Row* c
 /// All rows in one call; where that throws, one by one, so that each row has its own answer.
 void evaluate(const Group& group, const Copula& copula, std::span<Row* const> rows, const Options& options) {
   try {
-    if (options.exact) return evaluate_exactly(group, copula, rows, options.digits);
-    const Column values = group.quantity.evaluate(copula, points_of(rows));
+    if (options.level == Level::exact) return evaluate_exactly(group, copula, rows, options.digits);
+    const Accuracy accuracy = options.level == Level::fast ? Accuracy::fast : Accuracy::standard;
+    const Column values = group.quantity.evaluate(copula, points_of(rows), accuracy);
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->value = values(static_cast<Index>(i));
   } catch (const std::logic_error& error) {
     if (rows.size() == 1) {
@@ -71,8 +75,10 @@ void judge_row(const Group& group, const Copula& copula, Row& row) {
 void answer(Group& group, const Options& options) {
   CopulaPtr copula;
   try {
-    copula = group.family->make(group.quantity.dim_for(group.dim), group.theta);
-  } catch (const std::domain_error& error) {
+    const bool symbolic = options.level == Level::symbolic;
+    const FamilyInfo family = symbolic ? symbolic::formula_of(*group.family) : *group.family;
+    copula = family.make(group.quantity.dim_for(group.dim), group.theta);
+  } catch (const std::logic_error& error) {
     for (Row* row : group.rows) row->failure = error.what();
     return;
   }
@@ -186,8 +192,12 @@ void add_copula_table(CLI::App& parent, Common& common) {
       "answer the rows of a CSV file: family,theta,quantity,d,u[,expected], several numbers with blanks between");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->path, "the rows")->required();
-  const std::map<std::string, bool> levels = {{"standard", false}, {"exact", true}};
-  command->add_option("--accuracy", options->exact, "standard: doubles; exact: as many digits as asked for")
+  const std::map<std::string, Level> levels = {
+      {"fast", Level::fast}, {"standard", Level::standard}, {"symbolic", Level::symbolic}, {"exact", Level::exact}};
+  command
+      ->add_option("--accuracy", options->level,
+                   "fast: single precision; standard: double; symbolic: double, from the formula of psi alone; exact: "
+                   "as many digits as asked for")
       ->transform(CLI::CheckedTransformer(levels))
       ->default_str("standard");
   command->add_option("--digits", options->digits, "significant digits of --accuracy exact")

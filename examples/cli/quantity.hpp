@@ -13,7 +13,8 @@
 namespace sklar::cli {
 
 struct Quantity {
-  std::function<Column(const Copula&, const PointsRef&)> evaluate;
+  /// A quantity without a fast form takes the standard one.
+  std::function<Column(const Copula&, const PointsRef&, Accuracy)> evaluate;
   std::function<std::vector<BigFloat>(const Copula&, const PointsRef&, int digits)> exact;
   Rule rule;
   std::optional<int> order = {};  ///< of a derivative of psi, whose argument is t, one number, instead of u

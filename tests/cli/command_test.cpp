@@ -140,6 +140,20 @@ TEST_F(CopulaTable, GivesAsManyDigitsAsAskedFor) {
   expect_usage_error("copula table in.csv --accuracy exact --digits 0");
 }
 
+TEST_F(CopulaTable, EveryLevelIsAsAccurateAsItSays) {
+  write("in.csv", kHeaderExpected + "frank,5,log_pdf,2,0.25 0.75,-0.96622135369235653246\n");
+  const auto error = [&](const std::string& level) {
+    const Result result = run("copula table in.csv --json --accuracy " + level);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return nlohmann::json::parse(result.out)["rows"][0]["error"].get<double>();
+  };
+  EXPECT_LE(error("standard"), 1e-13);
+  EXPECT_LE(error("symbolic"), 1e-13);
+  EXPECT_LE(error("fast"), 1e-5);
+  EXPECT_GT(error("fast"), 1e-13);
+  expect_usage_error("copula table in.csv --accuracy slow");
+}
+
 TEST_F(CopulaTable, AnInadmissibleRowSaysWhyAndHarmsNoOther) {
   write("in.csv", kHeader +
                       "independence,,h,2,0.5 0.25\n"
