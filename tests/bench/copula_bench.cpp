@@ -1,10 +1,11 @@
 /// Nanoseconds a row over the list of families on one thread: the library, the same from the formula of psi alone, and
 /// the baselines, one scalar exp and log of the C library and scalar textbook formulas. Names:
-/// log_pdf/frank/d=2/n=65536, with fast/, formula/ or textbook/ before them; fit/frank/d=2/n=100000;
+/// log_pdf/frank/d=2/n=65536, with fast/, formula/ or textbook/ before them; fit/frank/d=2/n=100000, large_fit;
 /// derive/frank/order=10. Run by tests/bench.sh.
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <functional>
@@ -28,7 +29,7 @@ constexpr Index kRows = 65536;
 constexpr Index kRowsOfManyDimensions = 1024;
 constexpr Index kGrowthRows = 4096;
 constexpr Index kFormulaRows = 1024;
-constexpr Index kFitRows = 100'000;
+constexpr Index kFitRows = 100'000, kManyFitRows = 10'000'000;
 
 std::string suffix(const FamilyInfo& family, int dim, Index rows) {
   return "/" + family.name + "/d=" + std::to_string(dim) + "/n=" + std::to_string(rows);
@@ -156,12 +157,34 @@ void add_textbook(const char* name) {
   benchmark::RegisterBenchmark(("textbook/sample" + suffix(family, 2, kRows)).c_str(), measure);
 }
 
+/// The most memory that this process has held, in MiB.
+long peak_memory() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
 void add_fit(const FamilyInfo& family) {
   const auto measure = [&family](benchmark::State& state) {
     const Points& u = points(family, 2, kFitRows);
     for (auto _ : state) benchmark::DoNotOptimize(fit_maximum_likelihood(family, u).theta.data());
   };
   benchmark::RegisterBenchmark(("fit" + suffix(family, 2, kFitRows)).c_str(), measure);
+}
+
+/// Labelled with what it raises the peak of memory by, in MiB.
+void add_large_fit(const FamilyInfo& family) {
+  const auto measure = [&family](benchmark::State& state) {
+    Rng rng(2);
+    const Points u = family.make(2, medium_theta(family, 2))->sample(kManyFitRows, rng);
+    const long before = peak_memory();
+    for (auto _ : state) benchmark::DoNotOptimize(fit_maximum_likelihood(family, u).theta.data());
+    state.SetLabel(std::to_string(peak_memory() - before));
+  };
+  benchmark::RegisterBenchmark(("large_fit" + suffix(family, 2, kManyFitRows)).c_str(), measure)
+      ->Iterations(1)
+      ->Repetitions(3)
+      ->Unit(benchmark::kNanosecond);
 }
 
 /// All derivatives of psi up to an order from its text, and the tape of the last.
@@ -200,6 +223,7 @@ void add_family(const FamilyInfo& family) {
   for (const Evaluation& evaluation : kEvaluations) subject(family, 2, kRows).add("fast/", evaluation, Accuracy::fast);
   add_growth(family);
   add_fit(family);
+  add_large_fit(family);
   const FamilyInfo formula = symbolic::formula_of(family);
   for (const int dim : {2, 3, 10}) {
     Subject{family, formula.make(dim, medium_theta(family, dim)), dim, kFormulaRows}.add_all("formula/");
