@@ -46,8 +46,9 @@ HEAD
 
 ## Beside a textbook
 
-d = 2, n = 65536. "textbook" is the formula of the textbook in scalar code with the C library, without care of cancellation, and for the inverses of Gumbel and Joe Newton's
-method in a bracket (`tests/bench/textbook.hpp`). Sampling includes the generator of uniforms.
+d = 2, n = 65536. "textbook" is the formula of the textbook in scalar code with the C library, without care of
+cancellation, and for the inverses of Gumbel and Joe Newton's method in a bracket (`tests/bench/textbook.hpp`). Sampling
+includes the generator of uniforms.
 
 | quantity | family | ns | in exp+log | textbook ns | textbook / sklar |
 | --- | --- | ---: | ---: | ---: | ---: |
@@ -61,9 +62,8 @@ HEAD
 
 ## Single precision
 
-d = 2, n = 65536: `Accuracy::fast`, whose error is at most 1e-5. A row is 24 bytes, two doubles in and one out; where a
-value takes less than about 0.7 ns, they are what takes the time, as the copula of independence shows, whose values are
-copies (see Limits).
+d = 2, n = 65536: `Accuracy::fast`, whose error is at most 1e-5. The values of independence are copies: what
+memory takes.
 
 | quantity | family | standard ns | fast ns | standard / fast |
 | --- | --- | ---: | ---: | ---: |
@@ -116,10 +116,11 @@ HEAD
 What the kernels of d = 2 execute a row with AVX-512, from `sh tests/counts.sh`: instructions counted one by one as the
 processor takes them, of them arithmetic on vectors, divisions and square roots (eight rows each, sixteen in single
 precision), loads and stores (the constants of the formulas, registers spilt, 2 and 1 vectors of data); and of the loop
-over rows, in llvm-mca's model of an Ice Lake server, the cycles and its busiest unit. The busiest units are ports 0 and 5,
-which do all arithmetic on vectors of 64 bytes: the kernels are limited by the number of their vector instructions, not by
-loads (ports 2 and 3), nor by the divider (FPDivider), and memory is not waited for, except by the shortest: at 24 bytes a
-row the caches deliver about a row in 0.4 to 0.7 ns.
+over rows, in llvm-mca's model of an Ice Lake server, the cycles and its busiest unit. Ports 0 and 5 do all arithmetic on
+vectors of 64 bytes: where one of them is the busiest, the number of vector instructions is the limit, not loads (ports 2
+and 3) nor memory. The inverses of Joe, by a division a step of Newton's method, and of Ali-Mikhail-Haq, by a root, wait
+for the divider. Memory is the limit of the shortest alone, h of Ali-Mikhail-Haq: at 24 bytes a row the caches deliver a
+row in 0.4 to 0.9 ns, as the copies of the copula of independence show above.
 
 | quantity | family | accuracy | instructions | arithmetic | divisions | loads | stores | cycles | busiest unit |
 | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |
