@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "copula/random.hpp"
+#include "copula/study/timing.hpp"
 
 namespace sklar::brdf {
 
@@ -67,30 +68,24 @@ struct DirectionPairs {
   Directions wo, wi;
 };
 
-/// Of nine batches after a first one. @param batch gives a sum of its values, NaN where it failed.
+/// @param batch gives a sum of its values, NaN where it failed.
 template <class Batch>
-double median_ns(const Batch& batch) {
-  constexpr std::size_t kBatches = 9;
-  std::vector<double> times;
-  double sum = batch();
-  for (std::size_t i = 0; i < kBatches; ++i) {
-    const auto start = Clock::now();
-    sum += batch();
-    times.push_back(seconds_since(start));
-  }
-  return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : median(times) / kBatch * 1e9;
+double ns_of_one(const Batch& batch) {
+  double sum = 0;
+  const double seconds = seconds_per_call([&] { sum = batch(); });
+  return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : seconds / kBatch * 1e9;
 }
 
 }  // namespace
 
 double evaluation_ns(const Brdf& brdf) {
   const DirectionPairs pairs;
-  return median_ns([&] { return brdf.eval(pairs.wo, pairs.wi).sum(); });
+  return ns_of_one([&] { return brdf.eval(pairs.wo, pairs.wi).sum(); });
 }
 
 double single_evaluation_ns(const Brdf& brdf) {
   const DirectionPairs pairs;
-  return median_ns([&] {
+  return ns_of_one([&] {
     Rgb sum = Rgb::Zero();
     for (Eigen::Index i = 0; i < pairs.wo.rows(); ++i) {
       sum += brdf.eval(Vec3(pairs.wo.row(i).matrix()), Vec3(pairs.wi.row(i).matrix()));

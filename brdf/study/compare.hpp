@@ -49,7 +49,7 @@ struct Comparison {
                                           const std::filesystem::path& folder,
                                           const std::function<void(const std::string&)>& progress = {});
 
-/// Nanoseconds a RGB value in batches of 4096 seeded random direction pairs: median of nine batches, hot cache.
+/// Nanoseconds of processor time a RGB value in batches of 4096 seeded random direction pairs; see seconds_per_call.
 [[nodiscard]] double evaluation_ns(const Brdf& brdf);
 
 /// The same of the same pairs one at a time.
