@@ -79,6 +79,22 @@ PackedCoefficients pack(const RefinedLayout& layout, int components, int bits,
   return packed;
 }
 
+std::vector<double> unpack(const RefinedLayout& layout, int components, const PackedCoefficients& packed) {
+  std::vector<double> coefficients(packed.levels.size());
+  for (int k = 0; k < components; ++k) {
+    for (const RefinedPart part : kRefinedParts) {
+      const auto index = static_cast<std::size_t>(part);
+      const auto first = static_cast<std::size_t>(layout.first(k, part));
+      for (std::size_t i = first; i < first + static_cast<std::size_t>(layout.count(k, part)); ++i) {
+        const double value = static_cast<double>(packed.lowest[index]) +
+                             static_cast<double>(packed.levels[i]) * static_cast<double>(packed.step[index]);
+        coefficients[i] = static_cast<double>(static_cast<float>(value));
+      }
+    }
+  }
+  return coefficients;
+}
+
 RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyInfo> families,
                          PackedCoefficients coefficients)
     : structure_(structure),
@@ -108,20 +124,14 @@ RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyIn
       refuse("a range that is not finite");
     }
   }
+  unpacked_ = unpack(layout_, structure.components, packed_);
   expand();
   require_bounded();
 }
 
 std::vector<double> RefinedBrdf::part(int component, RefinedPart part) const {
-  std::vector<double> values;
-  const auto index = static_cast<std::size_t>(part);
-  for (int i = 0; i < layout_.count(component, part); ++i) {
-    const auto level =
-        static_cast<double>(packed_.levels[static_cast<std::size_t>(layout_.first(component, part) + i)]);
-    const double value = static_cast<double>(packed_.lowest[index]) + level * static_cast<double>(packed_.step[index]);
-    values.push_back(static_cast<double>(static_cast<float>(value)));
-  }
-  return values;
+  const auto first = unpacked_.begin() + layout_.first(component, part);
+  return {first, first + layout_.count(component, part)};
 }
 
 void RefinedBrdf::expand() {

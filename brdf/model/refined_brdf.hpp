@@ -34,6 +34,9 @@ struct PackedCoefficients {
 [[nodiscard]] PackedCoefficients pack(const RefinedLayout& layout, int components, int bits,
                                       const std::vector<double>& coefficients);
 
+/// The coefficients that the levels stand for.
+[[nodiscard]] std::vector<double> unpack(const RefinedLayout& layout, int components, const PackedCoefficients& packed);
+
 /// What RefinedBrdf::bytes says of a model with this many components and coefficients.
 [[nodiscard]] std::size_t refined_bytes(std::size_t components, int bits, std::size_t coefficients);
 
@@ -60,6 +63,7 @@ class RefinedBrdf final : public Brdf {
   [[nodiscard]] const RefinedStructure& structure() const { return structure_; }
   [[nodiscard]] const std::vector<FamilyInfo>& families() const { return families_; }
   [[nodiscard]] const PackedCoefficients& coefficients() const { return packed_; }
+  [[nodiscard]] const RefinedLayout& layout() const { return layout_; }
 
   /// Kendall's tau of a component's copula at theta_d [radians]; 0 where it has none.
   [[nodiscard]] double tau(int component, double theta_d) const;
@@ -76,6 +80,7 @@ class RefinedBrdf final : public Brdf {
   std::vector<FamilyInfo> families_;
   PackedCoefficients packed_;
   RefinedLayout layout_;
+  std::vector<double> unpacked_{};
   RefinedTables tables_;
 };
 

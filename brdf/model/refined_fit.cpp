@@ -41,6 +41,7 @@ RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& opti
   }
   PackedCoefficients packed = pack(layout, options.structure.components, options.bits, x);
   return {.brdf = std::make_shared<RefinedBrdf>(options.structure, families, std::move(packed)),
+          .coefficients = x,
           .start = search.start,
           .objective = search.objective,
           .evaluations = search.evaluations,

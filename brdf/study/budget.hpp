@@ -17,17 +17,24 @@ struct Budget {
   double max_ns = std::numeric_limits<double>::infinity();     ///< an RGB value in a batch, one thread
 };
 
+/// What is tried of each structure.
+struct BudgetSearch {
+  std::vector<FamilyInfo> families = {};    ///< each for all components; none is independence and Frank
+  std::vector<int> bits = {8, 10, 12, 14};  ///< of a stored coefficient
+};
+
 /// One model of the front.
 struct FrontPoint {
-  RefinedStructure structure = {};
   RefinedFit fit = {};
+  std::string family = {};
+  int bits = 0;
   std::size_t bytes = 0;
   double log1p_mae = 0, logrel_mae = 0;  ///< CellErrors, mean over channels
   double eval_ns = 0;                    ///< evaluation_ns
   double fit_s = 0;
 };
 
-/// Structures from 0.5 to 16 KB, each larger and more exact than the one before; 12 bits a coefficient.
+/// Structures from 0.5 to 16 KB at kLadderBits, each larger and more exact than the one before.
 [[nodiscard]] const std::vector<RefinedStructure>& structure_ladder();
 inline constexpr int kLadderBits = 12;
 
@@ -39,17 +46,24 @@ inline constexpr int kLadderBits = 12;
 [[nodiscard]] RefinedStructure largest_structure(double max_bytes, int bits);
 
 struct BudgetChoice {
-  std::vector<FrontPoint> front;  ///< in the order of the ladder, what was fitted
+  std::vector<FrontPoint> front;  ///< of all models fitted those with none both smaller and more exact, by bytes
   std::size_t chosen;             ///< index in front
 };
 
-/// With max_error, goes up the ladder and takes the first model that reaches it; else the most exact one within
-/// max_bytes and max_ns. The structure of `options` is not used.
+/// With max_error, goes up the ladder and takes the smallest model of the first structure that reaches it; else the
+/// most exact one of the two largest structures that fit, further down where these are too slow. A structure is fitted
+/// once a family; its precisions share the fit. The structure, the families and the bits of `options` are not used.
 /// @param progress called with what is being done.
 /// @throws std::invalid_argument for a budget that is not positive; std::runtime_error naming the best model where none
 /// meets it.
-[[nodiscard]] BudgetChoice choose_model(const MeasuredTable& table, const Budget& budget, RefinedFitOptions options,
+[[nodiscard]] BudgetChoice choose_model(const MeasuredTable& table, const Budget& budget,
+                                        const BudgetSearch& search = {}, RefinedFitOptions options = {},
                                         const std::function<void(const std::string&)>& progress = {});
+
+/// Fits the largest structure of the ladder within max_bytes, with the first of each list of `search`.
+[[nodiscard]] BudgetChoice fit_largest(const MeasuredTable& table, double max_bytes, const BudgetSearch& search,
+                                       RefinedFitOptions options = {},
+                                       const std::function<void(const std::string&)>& progress = {});
 
 /// The front as a Markdown table, the chosen row marked.
 [[nodiscard]] std::string to_markdown(const BudgetChoice& choice);

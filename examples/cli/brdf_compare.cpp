@@ -42,6 +42,7 @@ brdf::FamilyFitOptions fit_options(const FitOptions& options) {
   if (!options.is_refined()) return options.paper;
   brdf::RefinedFitOptions refined = options.refined;
   const double most = std::isinf(options.budget.max_bytes) ? kUsualBytes : options.budget.max_bytes;
+  refined.bits = options.bits.value_or(brdf::kLadderBits);
   refined.structure = brdf::largest_structure(most, refined.bits);
   return refined;
 }

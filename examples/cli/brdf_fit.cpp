@@ -1,10 +1,12 @@
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "brdf/model/model_io.hpp"
 #include "brdf/study/anisotropic_budget.hpp"
+#include "brdf/study/energy.hpp"
 #include "brdf/study/metrics.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/command.hpp"
@@ -22,9 +24,11 @@ struct Options {
   std::string material;
   std::string family;
   FitOptions fit;
+  double max_albedo = std::numeric_limits<double>::infinity();
   std::string output;
 };
 
+constexpr double kUsualBytes = 4096;  // of a model where nothing was asked for
 constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 
 void print_fits(const brdf::PaperFit& fit) {
@@ -81,8 +85,7 @@ Json json_point(const Point& point) {
 
 /// The budget of a fit where nothing was asked for.
 brdf::Budget usual(brdf::Budget budget) {
-  constexpr double kBytes = 4096;
-  if (std::isinf(budget.max_bytes) && budget.max_error == 0) budget.max_bytes = kBytes;
+  if (std::isinf(budget.max_bytes) && budget.max_error == 0) budget.max_bytes = kUsualBytes;
   return budget;
 }
 
@@ -96,26 +99,48 @@ void run_paper(const Options& options, const brdf::MeasuredTable& table, bool js
   print_json(stored, errors_of(stored, table), "paper", {{"family", family.name}, {"fits", json_fits(fit)}});
 }
 
-void run_refined(const Options& options, const brdf::MeasuredTable& table, bool json) {
-  const FamilyInfo& family = families::resolve(options.family.empty() ? "independence" : options.family);
-  brdf::RefinedFitOptions refined = options.fit.refined;
-  refined.families = {family};
+/// Without a budget one structure, of the usual size; with one a search.
+brdf::BudgetChoice choose(const Options& options, const brdf::MeasuredTable& table) {
   const StepLine steps;
-  const brdf::BudgetChoice choice =
-      brdf::choose_model(table, usual(options.fit.budget), refined,
-                         [&](const std::string& what) { steps.show(table.name + ": " + what); });
+  const auto progress = [&](const std::string& what) { steps.show(table.name + ": " + what); };
+  brdf::BudgetSearch search;
+  if (!options.family.empty()) search.families = {families::resolve(options.family)};
+  if (options.fit.bits) search.bits = {*options.fit.bits};
+  const brdf::Budget& budget = options.fit.budget;
+  if (!std::isinf(budget.max_bytes) || !std::isinf(budget.max_ns) || budget.max_error > 0) {
+    return choose_model(table, budget, search, options.fit.refined, progress);
+  }
+  if (search.families.empty()) search.families = {families::find("independence")};
+  search.bits = {options.fit.bits.value_or(brdf::kLadderBits)};
+  return fit_largest(table, kUsualBytes, search, options.fit.refined, progress);
+}
+
+void run_refined(const Options& options, const brdf::MeasuredTable& table, bool json) {
+  const brdf::BudgetChoice choice = choose(options, table);
   const brdf::FrontPoint& point = choice.front[choice.chosen];
-  const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
+  brdf::LimitedBrdf limited{.brdf = point.fit.brdf};
+  if (!std::isinf(options.max_albedo)) limited = brdf::limit_albedo(point.fit.brdf, options.max_albedo);
+  const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = limited.brdf};
   write_file(options.output, to_json(stored));
   const double deviation = table.report.isotropy_deviation;
   if (!json) {
     if (deviation > 0) std::cout << "isotropy deviation " << digits(deviation) << ": fitted as isotropic\n\n";
     std::cout << to_markdown(choice);
+    if (!std::isinf(options.max_albedo)) {
+      std::cout << "\nlargest directional albedo " << digits(limited.albedo_before) << ", limited "
+                << digits(limited.albedo_after) << "; values multiplied by " << digits(limited.lowest_factor)
+                << " to 1\n";
+    }
     return;
   }
-  Json more = {{"family", family.name}};
+  Json more = {{"family", point.family}, {"bits", point.bits}};
   more.update(json_point(point));
   if (deviation > 0) more["isotropy_deviation"] = deviation;
+  if (!std::isinf(options.max_albedo)) {
+    more.update({{"albedo_before", limited.albedo_before},
+                 {"albedo", limited.albedo_after},
+                 {"lowest_factor", limited.lowest_factor}});
+  }
   print_json(stored, errors_of(stored, table), "refined", more);
 }
 
@@ -123,11 +148,16 @@ void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table
   if (!options.family.empty() && options.family != "independence") {
     throw std::invalid_argument("--family " + options.family + ": the lobes of an anisotropic model have no copula");
   }
+  if (!std::isinf(options.max_albedo)) {
+    throw std::invalid_argument("--max-albedo: '" + table.name + "' is anisotropic, the limit is for isotropic models");
+  }
   const StepLine steps;
-  const brdf::AnisotropicChoice choice = brdf::choose_anisotropic(
-      table, usual(options.fit.budget),
-      {.objective = options.fit.refined.objective, .measure = options.fit.measure, .bits = options.fit.refined.bits},
-      [&](const std::string& what) { steps.show(table.name + ": " + what); });
+  const brdf::AnisotropicChoice choice =
+      brdf::choose_anisotropic(table, usual(options.fit.budget),
+                               {.objective = options.fit.refined.objective,
+                                .measure = options.fit.measure,
+                                .bits = options.fit.bits.value_or(brdf::kLadderBits)},
+                               [&](const std::string& what) { steps.show(table.name + ": " + what); });
   const brdf::AnisotropicPoint& point = choice.front[choice.chosen];
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
   write_file(options.output, to_json(stored));
@@ -157,13 +187,16 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
       "fit", "fit a model to a material; refined fits take the anisotropic model where the material is");
   const auto options = std::make_shared<Options>();
   add_material(*command, options->material);
-  command->add_option("--family", options->family,
-                      std::string(kFamilyHelp) + "; omitted: frank (paper), independence (refined)");
+  command->add_option(
+      "--family", options->family,
+      std::string(kFamilyHelp) + "; omitted: frank (paper), independence (refined; with a budget frank, too)");
   command->add_option("-o", options->output, "MODEL.json")->required();
   add_fit_options(*command, options->fit, "refined");
   command->add_option("--max-error", options->fit.budget.max_error,
                       "refined: the smallest model with at most this log1p_mae");
   command->add_option("--max-ns", options->fit.budget.max_ns, "refined: nanoseconds an RGB value in a batch, at most");
+  command->add_option("--max-albedo", options->max_albedo,
+                      "refined: lower the model where its directional albedo is larger, at some theta_o or channel");
   finish_command(*command, common, [command, options, &common] {
     settle_fit_options(*command, options->fit);
     run(*options, common.json);

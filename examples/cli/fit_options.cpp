@@ -34,8 +34,8 @@ void add_fit_options(CLI::App& command, FitOptions& options, const std::string& 
           by_text({RefinedObjective::balanced, RefinedObjective::log1p, RefinedObjective::log_relative,
                    RefinedObjective::cube_root, RefinedObjective::likelihood, RefinedObjective::image})))
       ->default_str("balanced");
-  command.add_option("--bits", options.refined.bits, "refined: bits of a stored coefficient, 6 to 16")
-      ->capture_default_str();
+  command.add_option("--bits", options.bits,
+                     "refined: bits of a stored coefficient, 6 to 16; omitted: 12, with a budget 8, 10, 12 and 14");
   command.add_option("--max-bytes", options.budget.max_bytes, "refined: bytes of the stored model, at most");
   command.add_option("--measure", options.measure, "what a cell counts: one (cell) or its solid angle")
       ->transform(CLI::CheckedTransformer(by_text({CellMeasure::per_cell, CellMeasure::per_solid_angle})))

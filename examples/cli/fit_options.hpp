@@ -2,6 +2,7 @@
 /// How a model is fitted: the options that `brdf fit` and `brdf compare` share.
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "brdf/model/paper_fit.hpp"
@@ -13,7 +14,8 @@ namespace sklar::cli {
 struct FitOptions {
   std::string mode;  ///< "paper" or "refined"
   brdf::PaperFitOptions paper = {};
-  brdf::RefinedFitOptions refined = {.bits = brdf::kLadderBits};
+  brdf::RefinedFitOptions refined = {};
+  std::optional<int> bits = {};
   brdf::CellMeasure measure = brdf::CellMeasure::per_cell;
   brdf::Budget budget = {};
   brdf::Provenance provenance = brdf::Provenance::unknown;

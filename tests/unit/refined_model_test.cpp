@@ -10,7 +10,9 @@
 #include "brdf/model/refined_problem.hpp"
 #include "brdf/model/spline.hpp"
 #include "brdf/render/hemisphere.hpp"
+#include "brdf/study/albedo.hpp"
 #include "brdf/study/budget.hpp"
+#include "brdf/study/energy.hpp"
 #include "brdf/study/metrics.hpp"
 #include "copula/error.hpp"
 #include "copula/random.hpp"
@@ -264,27 +266,74 @@ TEST(RefinedModel, RefusesBadArguments) {
   EXPECT_THROW((void)RefinedBrdf(small(), {}, {}), std::invalid_argument);
 }
 
+const BudgetSearch& quick_search() {
+  static const BudgetSearch kSearch{.families = {families::find("independence"), families::find("frank")},
+                                    .bits = {8, 12}};
+  return kSearch;
+}
+
 TEST(Budget, TakesTheSmallestModelThatIsGoodEnough) {
-  const RefinedFitOptions options{.bits = kLadderBits, .evaluations = 40};
-  const BudgetChoice choice = choose_model(builtin(), {.max_error = 0.02}, options);
-  EXPECT_EQ(choice.chosen, choice.front.size() - 1);
-  EXPECT_LE(choice.front[choice.chosen].log1p_mae, 0.02);
+  const RefinedFitOptions options{.evaluations = 40};
+  constexpr double kEnough = 0.02;
+  const BudgetChoice choice = choose_model(builtin(), {.max_error = kEnough}, quick_search(), options);
+  EXPECT_LE(choice.front[choice.chosen].log1p_mae, kEnough);
+  for (std::size_t i = 0; i < choice.chosen; ++i) EXPECT_GT(choice.front[i].log1p_mae, kEnough);
   EXPECT_NE(to_markdown(choice).find("chosen"), std::string::npos);
-  const BudgetChoice small_choice = choose_model(builtin(), {.max_bytes = 600}, options);
-  EXPECT_LE(small_choice.front[small_choice.chosen].bytes, 600U);
-  EXPECT_EQ(small_choice.front[0].bytes, stored_bytes(structure_ladder()[0], kLadderBits, false));
+}
+
+TEST(Budget, TakesTheMostExactModelThatIsSmallEnough) {
+  constexpr double kMost = 800;
+  const BudgetChoice choice =
+      choose_model(builtin(), {.max_bytes = kMost}, quick_search(), RefinedFitOptions{.evaluations = 40});
+  EXPECT_LE(static_cast<double>(choice.front[choice.chosen].bytes), kMost);
+  for (std::size_t i = 1; i < choice.front.size(); ++i) {
+    EXPECT_GE(choice.front[i].bytes, choice.front[i - 1].bytes);
+    EXPECT_LT(choice.front[i].log1p_mae, choice.front[i - 1].log1p_mae);
+  }
+  for (const FrontPoint& point : choice.front) {
+    if (static_cast<double>(point.bytes) > kMost) continue;
+    EXPECT_GE(point.log1p_mae, choice.front[choice.chosen].log1p_mae);
+    EXPECT_EQ(point.bytes, point.fit.brdf->bytes());
+    EXPECT_EQ(point.bits, point.fit.brdf->coefficients().bits);
+  }
+}
+
+TEST(Budget, FitsOneStructureWithoutASearch) {
+  const BudgetChoice choice = fit_largest(builtin(), 600, quick_search(), RefinedFitOptions{.evaluations = 8});
+  ASSERT_EQ(choice.front.size(), 1U);
+  EXPECT_EQ(choice.front[0].bytes, stored_bytes(largest_structure(600, 8), 8, false));
 }
 
 TEST(Budget, SaysWhatIsTheBestWhereNoModelMeetsIt) {
-  const RefinedFitOptions options{.bits = kLadderBits, .evaluations = 8};
+  const RefinedFitOptions options{.evaluations = 8};
+  const BudgetSearch search{.families = {families::find("independence")}, .bits = {12}};
   try {
-    (void)choose_model(builtin(), {.max_error = 1e-9, .max_bytes = 600}, options);
+    (void)choose_model(builtin(), {.max_error = 1e-9, .max_bytes = 600}, search, options);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("no model meets the budget; the most exact one has"), std::string::npos);
   }
-  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = 10}, options), std::runtime_error);
-  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = -1}, options), std::invalid_argument);
+  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = 10}, search, options), std::runtime_error);
+  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = -1}, search, options), std::invalid_argument);
+}
+
+TEST(Energy, LowersOnlyWhatSendsBackTooMuch) {
+  const RefinedFit fit = quick_fit(builtin());
+  const double largest = directional_albedo(*fit.brdf).albedo.maxCoeff();
+  const LimitedBrdf same = limit_albedo(fit.brdf, 1.01 * largest);
+  EXPECT_EQ(same.brdf, fit.brdf);
+  EXPECT_EQ(same.lowest_factor, 1);
+  const double limit = 0.8 * largest;
+  const LimitedBrdf lower = limit_albedo(fit.brdf, limit);
+  constexpr double kNodes = 5e-3;  // relative: other nodes, and angles to 89 instead of 89.5 degrees
+  EXPECT_NEAR(lower.albedo_before, largest, kNodes * largest);
+  EXPECT_LE(lower.albedo_after, limit);
+  EXPECT_GT(lower.albedo_after, 0.99 * limit);
+  EXPECT_LE(directional_albedo(*lower.brdf).albedo.maxCoeff(), (1 + kNodes) * limit);
+  EXPECT_LT(lower.lowest_factor, 1);
+  EXPECT_GT(lower.lowest_factor, 0.5);
+  EXPECT_EQ(lower.brdf->bytes(), fit.brdf->bytes());
+  EXPECT_THROW((void)limit_albedo(fit.brdf, 0), std::invalid_argument);
 }
 
 }  // namespace

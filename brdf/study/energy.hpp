@@ -1,0 +1,25 @@
+#pragma once
+/// Refined models that send back no more light than they get.
+
+#include <memory>
+
+#include "brdf/model/refined_brdf.hpp"
+
+namespace sklar::brdf {
+
+/// A model and what was done to it.
+struct LimitedBrdf {
+  std::shared_ptr<const RefinedBrdf> brdf;  ///< the model itself where it kept the limit
+  double albedo_before = 0;                 ///< largest directional albedo over theta_o and channels
+  double albedo_after = 0;                  ///<
+  double lowest_factor = 1;                 ///< the least by which values were multiplied, at some theta_d
+};
+
+/// Lowers a model where its directional albedo exceeds a limit: all components are multiplied by one smooth factor of
+/// theta_d, at most 1, found by repeated projection onto the worst theta_o, so that as little as possible changes
+/// elsewhere. The albedo is that of directional_albedo at 0, 0.5, .., 89.5 degrees. Reciprocity is not touched.
+/// @param limit positive.
+/// @throws std::invalid_argument for another limit; std::runtime_error if the limit is not reached.
+[[nodiscard]] LimitedBrdf limit_albedo(std::shared_ptr<const RefinedBrdf> model, double limit = 1);
+
+}  // namespace sklar::brdf
