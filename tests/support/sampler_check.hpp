@@ -3,6 +3,7 @@
 /// f cos / pdf, and albedo from importance samples agrees with albedo from uniform ones.
 
 #include <array>
+#include <cstdlib>
 #include <functional>
 #include <numbers>
 
@@ -38,8 +39,14 @@ inline double integrate(const std::function<double(double, double)>& f, double x
          integrate(f, x0, x, y, y1, tolerance / 4, depth - 1) + integrate(f, x, x1, y, y1, tolerance / 4, depth - 1);
 }
 
+/// A million, or ten times $SKLAR_DRAWS.
+inline int sampler_draws() {
+  const char* given = std::getenv("SKLAR_DRAWS");
+  return given == nullptr ? 1000000 : 10 * std::atoi(given);
+}
+
 struct SamplerCheck {
-  int draws = 1000000;
+  int draws = sampler_draws();
   int theta_cells = 32;
   int phi_cells = 64;
   int tests = 1;                  ///< how many calls share the level of significance
