@@ -1,16 +1,33 @@
 #pragma once
 /// The vector kernel that evaluates a refined model, in single precision, in the widest instruction set of the machine.
 
-#include <tbb/cache_aligned_allocator.h>
-
 #include <cstddef>
+#include <new>
 #include <vector>
 
 #include "brdf/model/refined_structure.hpp"
 
 namespace sklar::brdf {
 
-using AlignedFloats = std::vector<float, tbb::cache_aligned_allocator<float>>;
+/// Storage that begins on a cache line, so that a vector of 512 bits is one access.
+template <class Value>
+struct CacheLineAllocator {
+  using value_type = Value;
+  static constexpr std::align_val_t kLine{64};
+
+  CacheLineAllocator() = default;
+  template <class Other>
+  explicit CacheLineAllocator(const CacheLineAllocator<Other>&) {}
+
+  [[nodiscard]] Value* allocate(std::size_t count) {
+    return static_cast<Value*>(::operator new(count * sizeof(Value), kLine));
+  }
+  void deallocate(Value* from, std::size_t) { ::operator delete(from, kLine); }
+
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+
+using AlignedFloats = std::vector<float, CacheLineAllocator<float>>;
 
 /// A model as evaluation reads it: the components side by side, kMostComponents numbers each, those beyond the model's
 /// with a density of e^-80. Colours, powers and couplings stand at the nodes of the Lattice.
