@@ -33,7 +33,7 @@ struct Vec {
 /// Parts apart from each other: a compiler would else keep masks of few bits together in one integer.
 template <class D>
 struct Mask {
-  struct alignas(16) Part {
+  struct alignas(16) alignas(hn::Mask<typename D::Part>) Part {
     hn::Mask<typename D::Part> mask;
   };
   Part part[D::kParts];
