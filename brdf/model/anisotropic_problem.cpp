@@ -17,8 +17,8 @@ constexpr double kRidge = 0.01;  // of the sum of squares, beside the sum over c
 
 constexpr double kFence = 30;
 
-/// Beyond this distance from the start the square of what is more counts kFence: parts that could cancel each other do not
-/// grow without bound, and models stay far from where their values are not finite.
+/// Beyond this distance from the start the square of what is more counts kFence: parts that could cancel each other do
+/// not grow without bound, and models stay far from where their values are not finite.
 double room_of(AnisotropicPart part) {
   constexpr double kShape = 8, kOther = 4;
   return part == AnisotropicPart::shape ? kShape : kOther;

@@ -72,6 +72,13 @@ bool is_dense(const FamilyInfo& family, double tau) {
 
 }  // namespace
 
+std::vector<bool> coupled(const std::vector<FamilyInfo>& families) {
+  std::vector<bool> result(families.size());
+  std::transform(families.begin(), families.end(), result.begin(),
+                 [](const FamilyInfo& family) { return !family.parameters.empty(); });
+  return result;
+}
+
 LatticeBases::LatticeBases(const RefinedStructure& structure) {
   const Eigen::ArrayXd along = Eigen::ArrayXd::LinSpaced(Lattice::difference, 0, 1);
   const Eigen::ArrayXd across = Eigen::ArrayXd::LinSpaced(Lattice::half, 0, 1);

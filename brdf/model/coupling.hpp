@@ -11,6 +11,9 @@
 
 namespace sklar::brdf {
 
+/// Which components have a copula other than independence.
+[[nodiscard]] std::vector<bool> coupled(const std::vector<FamilyInfo>& families);
+
 /// The log margins and the coefficient of the dependence at the nodes.
 struct CouplingInput {
   Eigen::MatrixXd half;        ///< log density, half x difference

@@ -17,12 +17,6 @@ namespace {
 constexpr double kLargestLog = 80;  // of f_r; e^80 is within single precision
 constexpr float kAbsent = -80;      // the log density of a component that is not there
 
-std::vector<bool> coupled(const std::vector<FamilyInfo>& families) {
-  std::vector<bool> result;
-  for (const FamilyInfo& family : families) result.push_back(!family.parameters.empty());
-  return result;
-}
-
 /// Puts numbers of a component into a table in the order of the kernel.
 void interleave(const Eigen::Ref<const Eigen::MatrixXd>& values, std::size_t first, std::size_t step,
                 AlignedFloats& table) {

@@ -18,12 +18,6 @@ using MatrixOut = Eigen::Map<Matrix>;
 
 constexpr double kRidge = 0.01, kColourRidge = 0.1;  // of the sums of squares, beside the sum over cells
 
-std::vector<bool> coupled(const std::vector<FamilyInfo>& families) {
-  std::vector<bool> result;
-  for (const FamilyInfo& family : families) result.push_back(!family.parameters.empty());
-  return result;
-}
-
 /// log c at the cells of a slice from a plane of the lattice, or, transposed, slopes from there onto the plane.
 template <class Action>
 void for_each_cell(const RefinedCells& cells, const LossSlice& slice, const Action& action) {
@@ -262,7 +256,8 @@ double RefinedProblem::evaluate(const LossWeights& weights, const std::vector<do
                 .cast<double>();
       }
       slopes.powers[k].col(j) =
-          Eigen::Map<Eigen::VectorXf>(by.powers.data() + static_cast<int>(k) * structure_.azimuth, structure_.azimuth)
+          Eigen::Map<Eigen::VectorXf>(by.powers.data() + k * static_cast<std::size_t>(structure_.azimuth),
+                                      structure_.azimuth)
               .cast<double>();
       if (!couplings_[k]) continue;
       for_each_cell(cells_, slice, [&](std::size_t cell, int node, double share) {
@@ -335,6 +330,21 @@ double cell_curvature(const LossWeights& w, double f, double g, double c) {
          static_cast<double>(w.image) * 2 * g * c * g * c;
 }
 
+/// What azimuth and copula add to the log of each component at cell n of the slice of theta_d bin j.
+std::vector<double> log_factors(const std::vector<Matrix>& powers, const LossModel& model, const LossSlice& slice,
+                                int j, std::size_t n) {
+  constexpr std::size_t kCells = static_cast<std::size_t>(kLossRows) * kLossColumns;
+  const double z = static_cast<double>(slice.azimuth[n]);
+  std::vector<double> result(powers.size());
+  for (std::size_t k = 0; k < powers.size(); ++k) {
+    double sum = 0;
+    for (Eigen::Index m = powers[k].rows() - 1; m >= 0; --m) sum = (sum + powers[k](m, j)) * z;
+    if (!model.coupling.empty()) sum += static_cast<double>(model.coupling[k * kCells + n]);
+    result[k] = sum;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> RefinedProblem::curvature(const LossWeights& weights, const std::vector<double>& x) const {
@@ -357,15 +367,7 @@ std::vector<double> RefinedProblem::curvature(const LossWeights& weights, const 
       if (slice.weight[n] == 0) continue;
       const double z = static_cast<double>(slice.azimuth[n]);
       const double cosine = static_cast<double>(slice.cos_i[n] + slice.cos_o[n]) / 2;
-      std::vector<double> factor(components);
-      for (std::size_t k = 0; k < components; ++k) {
-        double log_factor = 0;
-        for (int m = structure_.azimuth - 1; m >= 0; --m) log_factor = (log_factor + at.powers[k](m, j)) * z;
-        if (!model.coupling.empty()) {
-          log_factor += static_cast<double>(model.coupling[k * static_cast<std::size_t>(kLossRows) * kLossColumns + n]);
-        }
-        factor[k] = log_factor;
-      }
+      const std::vector<double> factor = log_factors(at.powers, model, slice, j, n);
       for (std::size_t c = 0; c < 3; ++c) {
         double g = 0;
         for (std::size_t k = 0; k < components; ++k) g += std::exp(at.values[k][c](i, j) + factor[k]);

@@ -60,7 +60,7 @@ std::shared_ptr<const RefinedBrdf> lowered(const RefinedBrdf& model, const Eigen
 
 }  // namespace
 
-LimitedBrdf limit_albedo(std::shared_ptr<const RefinedBrdf> model, double limit) {
+LimitedBrdf limit_albedo(const std::shared_ptr<const RefinedBrdf>& model, double limit) {
   if (!(limit > 0)) {
     throw std::invalid_argument("limit_albedo: the limit is " + to_text(limit) + ", it must be positive");
   }

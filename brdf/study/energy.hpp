@@ -20,6 +20,6 @@ struct LimitedBrdf {
 /// elsewhere. The albedo is that of directional_albedo at 0, 0.5, .., 89.5 degrees. Reciprocity is not touched.
 /// @param limit positive.
 /// @throws std::invalid_argument for another limit; std::runtime_error if the limit is not reached.
-[[nodiscard]] LimitedBrdf limit_albedo(std::shared_ptr<const RefinedBrdf> model, double limit = 1);
+[[nodiscard]] LimitedBrdf limit_albedo(const std::shared_ptr<const RefinedBrdf>& model, double limit = 1);
 
 }  // namespace sklar::brdf
