@@ -65,7 +65,7 @@ LossWeights AnisotropicProblem::scaled(LossWeights weights) const {
 
 AnisotropicTables AnisotropicProblem::slice_model(const AnisotropicTables& whole, std::size_t slice) const {
   AnisotropicTables model = whole;
-  const int half = structure_.half, size = half * structure_.difference;
+  const std::ptrdiff_t half = structure_.half, size = half * structure_.difference;
   model.shape.resize(static_cast<std::size_t>(structure_.components * half));
   const Eigen::VectorXf along = difference_.row(static_cast<Eigen::Index>(slice)).transpose().cast<float>();
   for (int k = 0; k < structure_.components; ++k) {
@@ -118,7 +118,8 @@ std::vector<double> AnisotropicProblem::collect(const std::vector<AnisotropicSum
       for (std::size_t i = 0; i < metric.size(); ++i) {
         metric[i] += static_cast<double>(sums[j].metric[static_cast<std::size_t>(5 * k) + i]);
       }
-      const Eigen::Map<const Eigen::VectorXf> across(sums[j].shape.data() + k * structure_.half, structure_.half);
+      const Eigen::Map<const Eigen::VectorXf> across(sums[j].shape.data() + std::ptrdiff_t{k} * structure_.half,
+                                                     structure_.half);
       Eigen::RowVectorXd along = difference_.row(static_cast<Eigen::Index>(j));
       if (squares) along = along.cwiseAbs2();
       shape += across.cast<double>() * along;

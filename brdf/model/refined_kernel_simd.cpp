@@ -24,7 +24,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace sn = sklar::simd::HWY_NAMESPACE;
 
 constexpr std::ptrdiff_t kBlock = 32;  // rows; so many that the chains of their divisions and roots overlap
-constexpr std::ptrdiff_t kPair = 2 * kMostComponents;
+constexpr std::ptrdiff_t kMost = kMostComponents;
+constexpr std::ptrdiff_t kPair = 2 * kMost;
 using D = hn::CappedTag<float, kPair>;
 using V = hn::Vec<D>;
 using Double = hn::CappedTag<double, kPair / 2>;
@@ -260,8 +261,8 @@ HWY_INLINE Pair log_parts(const RefinedTables& t, const Block& b, std::ptrdiff_t
   const Four &across = b.half.weights, &along = b.difference.weights;
   const Pair low = Pair::of(across.get(0, row), across.get(1, row));
   const Pair high = Pair::of(across.get(2, row), across.get(3, row));
-  const float* shape = t.shape.data() + (b.difference.first[row] * t.half + b.half.first[row]) * kMostComponents;
-  const std::ptrdiff_t column = t.half * kMostComponents;
+  const float* shape = t.shape.data() + (std::ptrdiff_t{b.difference.first[row]} * t.half + b.half.first[row]) * kMost;
+  const std::ptrdiff_t column = t.half * kMost;
   const auto along_half = [&](int j) {
     const float* from = shape + j * column;
     return low.times(Pair::load(from)).plus_times(high, Pair::load(from + kPair));
@@ -293,9 +294,9 @@ HWY_INLINE Pair between(const Block& b, std::ptrdiff_t row, const float* first, 
 HWY_INLINE void evaluate_row(const RefinedTables& t, const Block& b, std::ptrdiff_t row, float* logs, float* colour) {
   Pair sum = log_parts(t, b, row);
   if (!t.coupling.empty()) {
-    constexpr std::ptrdiff_t kHalf = Lattice::azimuth * kMostComponents, kDifference = Lattice::half * kHalf;
+    constexpr std::ptrdiff_t kHalf = Lattice::azimuth * kMost, kDifference = Lattice::half * kHalf;
     const float* node = t.coupling.data() + b.difference_node[row] * kDifference + b.half_node[row] * kHalf +
-                        b.azimuth_node[row] * kMostComponents;
+                        b.azimuth_node[row] * kMost;
     const V next = hn::Set(D(), b.azimuth_next[row]);
     sum = sum.plus_times(Pair::of(hn::Sub(hn::Set(D(), 1.0F), next), next), between(b, row, node, kHalf, kDifference));
   }

@@ -1,10 +1,12 @@
 /// Random cells of one family against the textbook psi in as many digits as it takes: a section of docs/accuracy.md.
 /// Run by tests/accuracy.sh.
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <map>
+#include <tuple>
 
 #include "copula/error.hpp"
 #include "families/registry.hpp"
@@ -87,7 +89,8 @@ double inverse_share(const PsiReference& reference, const Cell& cell, double val
   const Digits best = miss / (1e-14 * p + rounding * h.slope);
   const Digits least = relative < best ? relative : best;
   if (least <= 1) return static_cast<double>(least);
-  for (double share = 0x1p-6; share < 1e12; share *= 2) {
+  for (int power = -6; power < 40; ++power) {
+    const double share = std::ldexp(1.0, power);
     const Digits step = share * kInverseBound * value;
     const bool below = v <= step || reference.conditional(given, v - step).value <= p;
     if (below && (v + step >= 1 || reference.conditional(given, v + step).value >= p)) return share;
@@ -186,7 +189,9 @@ class Sweep {
   struct Key {
     Quantity quantity;
     std::string dim, region;
-    friend auto operator<=>(const Key&, const Key&) = default;
+    friend bool operator<(const Key& a, const Key& b) {
+      return std::tie(a.quantity, a.dim, a.region) < std::tie(b.quantity, b.dim, b.region);
+    }
   };
 
   /// Returns false for a cell that has no answer to be judged.
