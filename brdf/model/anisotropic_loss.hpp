@@ -2,6 +2,7 @@
 /// The error of an anisotropic model over the cells of one theta_d and its derivatives: the inner loop of the fit, in
 /// single precision, in the widest instruction set of the machine.
 
+#include <array>
 #include <vector>
 
 #include "brdf/model/anisotropic_kernel.hpp"
@@ -12,7 +13,8 @@ namespace sklar::brdf {
 /// Cells of one theta_d in blocks of kPointBlock; weight 0 where nothing was measured.
 struct AnisotropicSlice {
   double difference = 0;  ///< Warped::difference
-  std::vector<float> measured[3]{}, cos_i{}, cos_o{}, weight{};
+  std::array<std::vector<float>, 3> measured{};
+  std::vector<float> cos_i{}, cos_o{}, weight{};
   AnisotropicPoints points{};
 };
 

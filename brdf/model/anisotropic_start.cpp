@@ -26,7 +26,7 @@ void for_each_cell(const AnisotropicSlice& slice, const Action& action) {
                      n / kPointBlock * static_cast<std::size_t>(slice.points.numbers * kPointBlock) + n % kPointBlock;
     Cell cell{.h_x = static_cast<double>(h[0]),
               .h_y = static_cast<double>(h[kPointBlock]),
-              .h_z = static_cast<double>(h[2 * kPointBlock]),
+              .h_z = static_cast<double>(h[std::size_t{2} * kPointBlock]),
               .weight = static_cast<double>(slice.weight[n]),
               .f = {}};
     for (std::size_t c = 0; c < 3; ++c) cell.f[c] = static_cast<double>(slice.measured[c][n]);
@@ -99,10 +99,10 @@ Matrix nearest_shape(const AnisotropicStructure& structure, const AnisotropicCel
       values.segment<4>(weights.first) += cell.weight * value * w;
     });
     const Eigen::VectorXd along = difference.row(static_cast<Eigen::Index>(j)).transpose();
-    for (int a = 0; a < structure.difference; ++a) {
+    for (Eigen::Index a = 0; a < structure.difference; ++a) {
       if (along(a) == 0) continue;
       right.segment(a * half, half) += along(a) * values;
-      for (int b = 0; b < structure.difference; ++b) {
+      for (Eigen::Index b = 0; b < structure.difference; ++b) {
         normal.block(a * half, b * half, half, half) += along(a) * along(b) * across;
       }
     }
