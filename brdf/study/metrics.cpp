@@ -128,7 +128,7 @@ CellErrors cell_errors(const AnisotropicTable& reference, const Brdf& model) {
   std::vector<Sums> rows(static_cast<std::size_t>(grid.theta_h * grid.stored_phi_h()));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t row) {
     const int i = static_cast<int>(row) / grid.stored_phi_h(), m = static_cast<int>(row) % grid.stored_phi_h();
-    const Eigen::Index most = grid.theta_d * grid.phi_d;
+    const Eigen::Index most = Eigen::Index{grid.theta_d} * grid.phi_d;
     Directions wo(most, 3), wi(most, 3);
     std::vector<std::size_t> cells;
     for (int j = 0; j < grid.theta_d; ++j) {
