@@ -24,8 +24,8 @@ struct RefinedFitOptions {
 struct RefinedFit {
   std::shared_ptr<const RefinedBrdf> brdf;
   std::vector<double> coefficients;  ///< those of brdf before they were rounded, in the order of its layout
-  double start = 0;      ///< objective, mean over cells and channels, at the start
-  double objective = 0;  ///< and at the end, before the coefficients are rounded
+  double start = 0;                  ///< objective, mean over cells and channels, at the start
+  double objective = 0;              ///< and at the end, before the coefficients are rounded
   int evaluations = 0;
   bool converged = false;  ///< whether the last search ended before its share of the evaluations
 };
