@@ -158,7 +158,9 @@ class Sweep {
   void run(long cells, std::uint64_t seed) {
     Rng rng(seed);
     for (const auto& [dim, share] : kDimensions) {
-      for (long n = 0; n < cells * share / 1000; ++n) judge(random_cell(family_, dim, kLargestTheta, rng));
+      for (long judged = 0; judged < cells * share / 1000;) {
+        judged += judge(random_cell(family_, dim, kLargestTheta, rng)) ? 1 : 0;
+      }
       std::fprintf(stderr, "%s d = %d done\n", family_.name.c_str(), dim);
     }
   }
@@ -192,7 +194,8 @@ class Sweep {
     }
   };
 
-  void judge(const Cell& cell) {
+  /// False for a cell without an answer: outside the support, or not resolved by psi.
+  bool judge(const Cell& cell) {
     const double value = evaluate(*family_.make(cell.dim(), cell.theta), cell);
     double share = 0;
     try {
@@ -205,13 +208,14 @@ class Sweep {
       share = share_of_bound(reference, cell, value);
     } catch (const std::runtime_error&) {
       ++skipped_;
-      return;
+      return false;
     }
     if (!(share <= 1)) {
       std::fprintf(stderr, "%s %s: %s gives %.17g, %.3g of the bound\n", family_.name.c_str(), to_text(cell.quantity),
                    cell_text(cell).c_str(), value, share);
     }
     table_[{cell.quantity, dim_range(cell.dim()), region(family_, cell)}].add(cell, share);
+    return true;
   }
 
   const FamilyInfo& family_;
