@@ -65,7 +65,14 @@ class ScaledPolynomials {
     return {value, slope};
   }
 
-  /// R_n in double for vector kernels.
+  /// R_0 (empty), R_1 .. R_n in double for vector kernels.
+  [[nodiscard]] std::vector<Coefficients> coefficients_to(int n) const {
+    std::vector<Coefficients> all(1);
+    for (int i = 1; i <= n; ++i) all.push_back(coefficients(i));
+    return all;
+  }
+
+  /// R_n in double.
   [[nodiscard]] Coefficients coefficients(int n) const {
     Coefficients result{.c = {}, .scale = std::ldexp(1.0, table_->rule().rule.exponent(n))};
     for (const Narrow& c : table_->template row<Narrow>(n)) {

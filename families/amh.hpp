@@ -36,8 +36,8 @@ struct Constants {
   T log_rest;  // log(1 - theta)
 };
 
-/// Vector kernels, or null for theta without. @param polynomial R_(d+1) in dimension d.
-[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+/// Vector kernels, or null for theta without. @param polynomials R_n at n, to R_(d+1) in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials);
 
 class AliMikhailHaq {
  public:
@@ -118,7 +118,7 @@ class AliMikhailHaq {
   }
 
   [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
-    return amh::kernels(constants<Narrow>().theta.value, polynomials_.coefficients(dim + 1));
+    return amh::kernels(constants<Narrow>().theta.value, polynomials_.coefficients_to(dim + 1));
   }
 
   [[nodiscard]] bool has_frailty() const { return positive_; }

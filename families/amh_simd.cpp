@@ -21,19 +21,19 @@ namespace sklar::families::amh {
 
 /// What depends on theta and the dimension alone.
 struct KernelConstants {
-  KernelConstants(double parameter, Coefficients coefficients)
+  KernelConstants(double parameter, std::vector<Coefficients> coefficients)
       : theta(parameter),
         size(std::abs(parameter)),
         rest(1 - parameter),
         lost_rest((1 - rest) - parameter),
         log_rest(std::log1p(-parameter)),
-        polynomial(std::move(coefficients)) {}
+        polynomials(std::move(coefficients)) {}
 
   double theta, size;  // theta and |theta|
   double rest;         // 1 - theta
   double lost_rest;    // 1 - theta - rest
   double log_rest;
-  Coefficients polynomial;  // R_(d+1)
+  std::vector<Coefficients> polynomials;  // R_n at n
 };
 
 }  // namespace sklar::families::amh
@@ -102,26 +102,43 @@ struct Weight {
   Vec<D> scaling, lost_scaling, a, lost_a, complement;
 };
 
-/// log c = (d+1) log(1-theta) - 2 log prod D(u_i) - log w + log R_(d+1)(x/w), x = theta prod u_i / D(u_i).
+/// x = theta prod a_i and w = 1 - x of some coordinates for theta > 0, with their errors, and prod D(u_i).
+template <class D>
+struct Weights {
+  HWY_INLINE Weights(D d, const KernelConstants& c, const Columns<D>& rows, Index count) : inside(rows.inside(0)) {
+    Product<D> product(d);
+    ExactProduct<D> all_scalings(d);
+    for (Index k = 0; k < count; ++k) {
+      inside = hn::And(inside, rows.inside(k));
+      const Weight<D> weight(d, c, rows[k], rows.upper(k));
+      product.multiply(d, weight.a, weight.lost_a, weight.complement);
+      all_scalings.multiply(d, weight.scaling, weight.lost_scaling);
+    }
+    parts = product.parts(d, c.theta, c.rest);
+    scalings = all_scalings.value();
+    of_x = hn::Set(d, 2.0);
+    of_w = hn::Set(d, static_cast<double>(count) / 2 + 5);
+  }
+
+  HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }
+
+  Mask<D> inside;
+  Vec<D> scalings;  // prod D(u_i)
+  Parts<D> parts;
+  Vec<D> of_x, of_w;
+};
+
+/// log c = (d+1) log(1-theta) - 2 log prod D(u_i) - log w + log R_(d+1)(x/w).
 template <class D>
 HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
-  const auto n = static_cast<double>(rows.size());
-  Product<D> product(d);
-  ExactProduct<D> scalings(d);
-  auto inside = rows.inside(0);
-  for (Index k = 0; k < rows.size(); ++k) {
-    inside = hn::And(inside, rows.inside(k));
-    const Weight<D> weight(d, c, rows[k], rows.upper(k));
-    product.multiply(d, weight.a, weight.lost_a, weight.complement);
-    scalings.multiply(d, weight.scaling, weight.lost_scaling);
-  }
-  const auto parts = product.parts(d, c.theta, c.rest);
-  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.0), hn::Set(d, n / 2 + 5));
-  const Vec<D> log_scalings = log(d, scalings.value());
-  const double constant = (n + 1) * c.log_rest;
+  const Weights<D> all(d, c, rows, rows.size());
+  const Coefficients& polynomial = c.polynomials[static_cast<std::size_t>(rows.size()) + 1];
+  const Estimate<D> term = log_ratio_term(d, polynomial, all.parts, 1.0, all.of_x, all.of_w);
+  const Vec<D> log_scalings = log(d, all.scalings);
+  const double constant = static_cast<double>(rows.size() + 1) * c.log_rest;
   const Vec<D> value = hn::Add(hn::NegMulAdd(hn::Set(d, 2.0), log_scalings, hn::Set(d, constant)), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -4.0), log_scalings, hn::Set(d, 2 - 2 * constant)), term.error);
-  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, all.inside);
 }
 
 template <class D>
@@ -131,7 +148,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
 }
 
 template <class D>
-HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Coordinate<D> u(d, c, rows, 0), v(d, c, rows, 1);
   const Vec<D> inverse_g = hn::Div(hn::Set(d, 1.0), denominator(d, c, u, v)), square = hn::Mul(inverse_g, inverse_g);
   Vec<D> value;
@@ -151,10 +168,34 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
                             hn::And(rows.inside(0), rows.inside(1)));
 }
 
+/// h = z R_(j+1)(y z) / R_(j+1)(y) for theta > 0, y = x/w of the j given.
+template <class D>
+HWY_INLINE Vec<D> conditional_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Weights<D> given(d, c, rows, last);
+  const Coordinate<D> v(d, c, rows, last);
+  const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), v.scaling);
+  const Vec<D> delta = hn::Mul(hn::Mul(hn::Set(d, c.rest), v.upper), inverse);
+  const NextFactor<D> next(d, given.parts, given.of_odds(), hn::Mul(v.value, inverse), delta, 4, 4);
+  const Coefficients& r = c.polynomials[static_cast<std::size_t>(last) + 1];
+  const ScaledArgument<D> at(d, r, given.parts.x, given.parts.w);
+  const Decrease<D> total = decrease_with_factor(d, r, at, next.z, next.distance, next.of);
+  const auto inside = hn::And(hn::And(given.inside, total.inside), rows.inside(last));
+  return total.fraction.probability(d, tail, kHTolerance, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_rows(d, c, tail, rows);
+  }
+  return conditional_pair(d, c, tail, rows);
+}
+
 /// The root z of y z (1 + y z) = p y (1 + y), y = x/w, of x = theta u / D(u), w = (1-theta) / D(u), and from it
 /// v = (1-theta) z / ((1-theta) (w + x z) + theta w (1-z)).
 template <class D>
-HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_inverse_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Vec<D> one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), four = hn::Set(d, 4.0), rest = hn::Set(d, c.rest);
   const Coordinate<D> u(d, c, rows, 0);
   const Vec<D> p = rows[1], upper_p = rows.upper(1), inverse = hn::Div(one, u.scaling);
@@ -179,13 +220,45 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
                             hn::And(rows.inside(0), rows.inside(1)));
 }
 
+/// v = (1-theta) a / (1 - theta a) and 1 - v = delta / (1 - theta a), 1 - theta a = 1 - theta + theta delta.
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Vec<D> rest = hn::Set(d, c.rest);
+  const Weights<D> given(d, c, rows, last);
+  const Vec<D> of_odds = given.of_odds();
+  const Coefficients& r = c.polynomials[static_cast<std::size_t>(last) + 1];
+  const FactorTrial<D> trial(d, r, given.parts, of_odds, rows.log_of(last));
+  const Root<D> root = find_root(d, hn::Zero(d), trial);
+  const NextWeight<D> next(d, given.parts, of_odds, root);
+  const Vec<D> divisor = hn::MulAdd(hn::Set(d, c.theta), next.complement, rest);
+  const Vec<D> carried = hn::Mul(next.error, rest);
+  // dv = (1-theta) da / (1 - theta a)^2
+  const Vec<D> numerator = tail == Tail::lower ? hn::Mul(rest, next.value) : next.complement;
+  const Vec<D> value = hn::Div(numerator, divisor);
+  const Vec<D> of_value = hn::Div(carried, hn::Mul(numerator, divisor));
+  const Vec<D> error = hn::Mul(hn::Add(of_value, hn::Set(d, 20.0)), hn::Set(d, Precision<D>::kUnit));
+  const auto inside = hn::And(hn::And(given.inside, root.found), rows.inside(last));
+  return probability_within(d, value, error, kInverseTolerance, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_inverse_rows(d, c, tail, rows);
+  }
+  return conditional_inverse_pair(d, c, tail, rows);
+}
+
 struct Formulas {
   static constexpr int kPartsSingle = 2;
 
   static bool answers_log_pdf(const KernelConstants& c, Index columns) {
-    return columns == 2 || (c.theta > 0 && c.polynomial.usable());
+    return columns == 2 || (c.theta > 0 && c.polynomials[static_cast<std::size_t>(columns) + 1].usable());
   }
-  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+  static bool answers_conditional(const KernelConstants& c, Index columns) {
+    return columns == 2 || (c.theta > 0 && c.polynomials[static_cast<std::size_t>(columns)].usable());
+  }
 
   template <class D>
   static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
@@ -213,11 +286,11 @@ namespace sklar::families::amh {
 
 HWY_EXPORT(table);
 
-std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial) {
+std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials) {
   constexpr double kSmallest = 1e-100, kRange = 1e-290;  // x, and (1-theta)^d <= prod D(u_i), are normal numbers
-  const auto dim = static_cast<double>(polynomial.c.size() - 1);
+  const auto dim = static_cast<double>(polynomials.size()) - 2;
   if (!(std::abs(theta) > kSmallest && std::pow(1 - theta, std::max(dim, 4.0)) > kRange)) return nullptr;
-  return make_kernels(KernelConstants(theta, std::move(polynomial)), *HWY_DYNAMIC_DISPATCH(table)());
+  return make_kernels(KernelConstants(theta, std::move(polynomials)), *HWY_DYNAMIC_DISPATCH(table)());
 }
 
 }  // namespace sklar::families::amh

@@ -46,8 +46,8 @@ struct Constants {
   T log_theta_by_q;
 };
 
-/// Vector kernels, or null for theta without. @param polynomial R_d in dimension d.
-[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+/// Vector kernels, or null for theta without. @param polynomials R_n at n, to R_d in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials);
 
 class Frank {
  public:
@@ -148,7 +148,7 @@ class Frank {
   }
 
   [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
-    return frank::kernels(constants<Narrow>().theta.value, polynomials_.coefficients(dim));
+    return frank::kernels(constants<Narrow>().theta.value, polynomials_.coefficients_to(dim));
   }
 
   [[nodiscard]] bool has_frailty() const { return positive_; }

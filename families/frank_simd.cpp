@@ -20,7 +20,7 @@ namespace sklar::families::frank {
 
 /// What depends on theta and the dimension alone.
 struct KernelConstants {
-  KernelConstants(double parameter, Coefficients coefficients)
+  KernelConstants(double parameter, std::vector<Coefficients> coefficients)
       : theta(std::abs(parameter)),
         negative(parameter < 0),
         q(-std::expm1(-theta)),
@@ -29,7 +29,7 @@ struct KernelConstants {
         upper_scale(std::expm1(theta)),
         log_theta_by_q(std::log(theta / q)),
         widening(std::max(1.0, 4 / theta)),
-        polynomial(std::move(coefficients)) {}
+        polynomials(std::move(coefficients)) {}
 
   double theta;  // absolute value
   bool negative;
@@ -38,8 +38,8 @@ struct KernelConstants {
   double tail;         // e^-theta
   double upper_scale;  // e^theta - 1
   double log_theta_by_q;
-  double widening;  // theta u is a normal number from this multiple of the smallest on
-  Coefficients polynomial;
+  double widening;                        // theta u is a normal number from this multiple of the smallest on
+  std::vector<Coefficients> polynomials;  // R_n at n
 };
 
 }  // namespace sklar::families::frank
@@ -90,30 +90,48 @@ HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& 
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 
-/// log c = (d-1) log(theta/q) - theta sum u_i + log R_d(x/w) - log w, x = q prod a_i, a_i = (1 - e^(-theta u_i)) / q.
+/// x = q prod a_i, a_i = (1 - e^(-theta u_i)) / q, and w of some coordinates, with their errors.
+template <class D>
+struct Weights {
+  HWY_INLINE Weights(D d, const KernelConstants& c, const Columns<D>& rows, Index count)
+      : inside(is_inside(c, rows, 0)) {
+    const auto n = static_cast<double>(count);
+    const Vec<D> inverse_q = hn::Set(d, c.inverse_q);
+    Product<D> product(d);
+    Sum<D> sum_of_u(d);
+    for (Index k = 0; k < count; ++k) {
+      const Vec<D> u = rows[k];
+      inside = hn::And(inside, is_inside(c, rows, k));
+      const Weight<D> a(d, c, u);
+      product.multiply(d, hn::Mul(a.value, inverse_q), hn::Mul(hn::Sub(a.rest, hn::Set(d, c.tail)), inverse_q));
+      sum_of_u.add(d, u);
+    }
+    sum = sum_of_u.value();
+    parts = product.parts(d, c.q, c.tail);
+    const Vec<D> of_difference = hn::Div(hn::Set(d, n * c.tail * (c.theta / 2 + 2)), parts.w);
+    of_w = hn::Add(of_difference, hn::Set(d, n / 2 + c.theta / 2 + 3));
+    of_x = hn::Set(d, 2.3 * n + 2);
+  }
+
+  HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }
+
+  Mask<D> inside;
+  Vec<D> sum;  // of u_i
+  Parts<D> parts;
+  Vec<D> of_x, of_w;
+};
+
+/// log c = (d-1) log(theta/q) - theta sum u_i + log R_d(x/w) - log w.
 template <class D>
 HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
-  const auto n = static_cast<double>(rows.size());
-  const Vec<D> inverse_q = hn::Set(d, c.inverse_q);
-  Product<D> product(d);
-  Sum<D> sum(d);
-  auto inside = is_inside(c, rows, 0);
-  for (Index k = 0; k < rows.size(); ++k) {
-    const Vec<D> u = rows[k];
-    inside = hn::And(inside, is_inside(c, rows, k));
-    const Weight<D> a(d, c, u);
-    product.multiply(d, hn::Mul(a.value, inverse_q), hn::Mul(hn::Sub(a.rest, hn::Set(d, c.tail)), inverse_q));
-    sum.add(d, u);
-  }
-  const auto parts = product.parts(d, c.q, c.tail);
-  const Vec<D> of_difference = hn::Div(hn::Set(d, n * c.tail * (c.theta / 2 + 2)), parts.w);
-  const Vec<D> of_w = hn::Add(of_difference, hn::Set(d, n / 2 + c.theta / 2 + 3));
-  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, 1.0, hn::Set(d, 2.3 * n + 2), of_w);
-  const double constant = (n - 1) * c.log_theta_by_q;
-  const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), sum.value());
+  const Weights<D> all(d, c, rows, rows.size());
+  const Coefficients& polynomial = c.polynomials[static_cast<std::size_t>(rows.size())];
+  const Estimate<D> term = log_ratio_term(d, polynomial, all.parts, 1.0, all.of_x, all.of_w);
+  const double constant = static_cast<double>(rows.size() - 1) * c.log_theta_by_q;
+  const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), all.sum);
   const Vec<D> value = hn::Add(hn::Sub(hn::Set(d, constant), exponent), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, 1.5), exponent, hn::Set(d, 2 * constant)), term.error);
-  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, all.inside);
 }
 
 template <class D>
@@ -125,7 +143,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
 /// h = a r / (r + X delta), 1 - h = delta / (r + X delta): r = e^(-theta u), X = 1 - r, a = (1 - e^(-theta v))/q and
 /// delta = 1 - a = e^-theta expm1(theta (1-v)) / q.
 template <class D>
-HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const auto inside = hn::And(is_inside(c, rows, 0), is_inside(c, rows, 1));
   const Weight<D> given(d, c, c.negative ? rows.upper(0) : rows[0]);
   Vec<D> value;
@@ -142,33 +160,87 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
   return probability_within(d, value, hn::Set(d, Precision<D>::kUnit * (3 * c.theta + 12)), kHTolerance, inside);
 }
 
-/// a = p / (p + r (1-p)), delta = r (1-p) / (p + r (1-p)); v = -log(1 - q a) / theta with 1 - q a = e^-theta + q delta,
-/// 1 - v = log(1 + expm1(theta) delta) / theta.
+/// h = z R_j(y z) / R_j(y), y = x/w of the j given.
 template <class D>
-HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
-  const Vec<D> one = hn::Set(d, 1.0);
+HWY_INLINE Vec<D> conditional_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Weights<D> given(d, c, rows, last);
+  const Vec<D> a = hn::Mul(Weight<D>(d, c, rows[last]).value, hn::Set(d, c.inverse_q));
+  const Vec<D> growth = expm1(d, hn::Mul(hn::Set(d, c.theta), rows.upper(last)));
+  const Vec<D> delta = hn::Mul(growth, hn::Set(d, c.tail * c.inverse_q));
+  const NextFactor<D> next(d, given.parts, given.of_odds(), a, delta, 4, 0.75 * c.theta + 5);
+  const Coefficients& r = c.polynomials[static_cast<std::size_t>(last)];
+  const ScaledArgument<D> at(d, r, given.parts.x, given.parts.w);
+  const Decrease<D> total = decrease_with_factor(d, r, at, next.z, next.distance, next.of);
+  const auto inside = hn::And(hn::And(given.inside, total.inside), is_inside(c, rows, last));
+  return total.fraction.probability(d, tail, kHTolerance, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_rows(d, c, tail, rows);
+  }
+  return conditional_pair(d, c, tail, rows);
+}
+
+/// v or 1 - v from a(v) and delta = 1 - a: v = -log(1 - q a) / theta with 1 - q a = e^-theta + q delta, 1 - v =
+/// log(1 + expm1(theta) delta) / theta.
+template <class D>
+HWY_INLINE Vec<D> value_at(D d, const KernelConstants& c, Tail tail, Vec<D> a, Vec<D> delta) {
+  if (tail == Tail::upper) {
+    return hn::Mul(log1p(d, hn::Mul(hn::Set(d, c.upper_scale), delta)), hn::Set(d, 1 / c.theta));
+  }
+  const Vec<D> complement = hn::MulAdd(hn::Set(d, c.q), delta, hn::Set(d, c.tail));
+  return hn::Mul(log_of_complement(d, complement, hn::Mul(a, hn::Set(d, c.q))), hn::Set(d, -1 / c.theta));
+}
+
+/// a = p / (p + r (1-p)), delta = r (1-p) / (p + r (1-p)).
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Vec<D> u = c.negative ? rows.upper(0) : rows[0], p = rows[1];
   const auto inside = hn::And(is_inside(c, rows, 0), is_inside(c, rows, 1));
   const Vec<D> rest = hn::Mul(exp(d, hn::Mul(hn::Set(d, -c.theta), u)), rows.upper(1));
-  const Vec<D> inverse_sum = hn::Div(one, hn::Add(p, rest)), delta = hn::Mul(rest, inverse_sum);
-  Vec<D> value;
-  if (tail == Tail::lower) {
-    const Vec<D> x = hn::Mul(hn::Mul(p, inverse_sum), hn::Set(d, c.q));
-    const Vec<D> complement = hn::MulAdd(hn::Set(d, c.q), delta, hn::Set(d, c.tail));
-    value = hn::Mul(log_of_complement(d, complement, x), hn::Set(d, -1 / c.theta));
-  } else {
-    value = hn::Mul(log1p(d, hn::Mul(hn::Set(d, c.upper_scale), delta)), hn::Set(d, 1 / c.theta));
-  }
+  const Vec<D> inverse_sum = hn::Div(hn::Set(d, 1.0), hn::Add(p, rest));
+  const Vec<D> value = value_at(d, c, tail, hn::Mul(p, inverse_sum), hn::Mul(rest, inverse_sum));
   return probability_within(d, value, hn::Set(d, Precision<D>::kUnit * (2 * c.theta + 20)), kInverseTolerance, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Weights<D> given(d, c, rows, last);
+  const Vec<D> of_odds = given.of_odds();
+  const Coefficients& r = c.polynomials[static_cast<std::size_t>(last)];
+  const FactorTrial<D> trial(d, r, given.parts, of_odds, rows.log_of(last));
+  const Root<D> root = find_root(d, hn::Zero(d), trial);
+  const NextWeight<D> next(d, given.parts, of_odds, root);
+  const Vec<D> value = value_at(d, c, tail, next.value, next.complement);
+  // Both theta v and theta (1-v) change by q da / (1 - q a).
+  const Vec<D> rest = hn::Mul(hn::MulAdd(hn::Set(d, c.q), next.complement, hn::Set(d, c.tail)), hn::Set(d, c.theta));
+  const Vec<D> carried = hn::Div(hn::Mul(next.error, hn::Set(d, c.q)), hn::Mul(rest, value));
+  const Vec<D> error = hn::Mul(hn::Add(carried, hn::Set(d, 20.0)), hn::Set(d, Precision<D>::kUnit));
+  const auto inside = hn::And(hn::And(given.inside, root.found), rows.inside(last));
+  return probability_within(d, value, error, kInverseTolerance, inside);
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_inverse_rows(d, c, tail, rows);
+  }
+  return conditional_inverse_pair(d, c, tail, rows);
 }
 
 struct Formulas {
   static constexpr int kPartsSingle = 4;
 
   static bool answers_log_pdf(const KernelConstants& c, Index columns) {
-    return columns == 2 || (!c.negative && c.polynomial.usable());
+    return columns == 2 || (!c.negative && c.polynomials[static_cast<std::size_t>(columns)].usable());
   }
-  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+  static bool answers_conditional(const KernelConstants& c, Index columns) {
+    return columns == 2 || (!c.negative && c.polynomials[static_cast<std::size_t>(columns) - 1].usable());
+  }
 
   template <class D>
   static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
@@ -196,10 +268,10 @@ namespace sklar::families::frank {
 
 HWY_EXPORT(table);
 
-std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial) {
+std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials) {
   constexpr double kSmallest = 1e-150, kLargest = 500;  // e^theta and 1/theta are far within double
   if (!(std::abs(theta) > kSmallest && std::abs(theta) < kLargest)) return nullptr;
-  return make_kernels(KernelConstants(theta, std::move(polynomial)), *HWY_DYNAMIC_DISPATCH(table)());
+  return make_kernels(KernelConstants(theta, std::move(polynomials)), *HWY_DYNAMIC_DISPATCH(table)());
 }
 
 }  // namespace sklar::families::frank

@@ -40,8 +40,8 @@ struct Rule {
   }
 };
 
-/// Vector kernels, or null for theta without. @param polynomial R_d in dimension d.
-[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+/// Vector kernels, or null for theta without. @param polynomials R_n at n, to R_d in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials);
 
 class Gumbel {
  public:
@@ -103,7 +103,7 @@ class Gumbel {
   }
 
   [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
-    return gumbel::kernels(theta_, polynomials_.coefficients(dim));
+    return gumbel::kernels(theta_, polynomials_.coefficients_to(dim));
   }
 
   [[nodiscard]] bool has_frailty() const { return true; }

@@ -7,6 +7,9 @@
 //
 #include <hwy/foreach_target.h>
 //
+#include <bit>
+
+#include "copula/simd/decrease-inl.h"
 #include "copula/simd/polynomial-inl.h"
 #include "copula/simd/rows-inl.h"
 #include "families/gumbel.hpp"
@@ -18,7 +21,7 @@ namespace sklar::families::gumbel {
 /// What depends on theta and the dimension alone.
 struct KernelConstants {
   double theta;
-  Coefficients polynomial;  // R_d
+  std::vector<Coefficients> polynomials;  // R_n at n
 };
 
 constexpr int kMostSteps = 8;
@@ -56,7 +59,8 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> log_power = log(d, powers.value()), log_s = hn::Mul(log_power, hn::Set(d, 1 / c.theta));
   inside = hn::And(inside, hn::Gt(log_power, hn::Set(d, Precision<D>::kLowestExponent)));
   const Vec<D> s = exp(d, log_s);
-  const LogPolynomial<D> polynomial = log_polynomial(d, c.polynomial, hn::Set(d, 1.0), s);
+  const Coefficients& coefficients = c.polynomials[static_cast<std::size_t>(size)];
+  const LogPolynomial<D> polynomial = log_polynomial(d, coefficients, hn::Set(d, 1.0), s);
   const Vec<D> ratios = hn::NegMulAdd(hn::Set(d, n), log_s, log_sum.value());
   const Vec<D> gap = hn::Sub(x_sum.value(), s);
   const Vec<D> value = hn::MulAdd(hn::Set(d, excess), ratios, hn::Add(gap, polynomial.log));
@@ -66,7 +70,7 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> of_ratios = hn::MulAdd(hn::Set(d, 2.5 * excess), sizes, hn::Set(d, 1.5 * excess * n));
   const Vec<D> of_rest =
       hn::MulAdd(hn::Set(d, 2.5), hn::Add(x_sum.value(), s), hn::Abs(hn::Add(polynomial.log, polynomial.log)));
-  const Vec<D> steps = hn::Set(d, n + 2 + c.polynomial.relative_error / Precision<D>::kUnit);
+  const Vec<D> steps = hn::Set(d, n + 2 + coefficients.relative_error / Precision<D>::kUnit);
   const Vec<D> error = hn::MulAdd(of_log_s, weight, hn::Add(hn::Add(of_ratios, of_rest), steps));
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
@@ -79,7 +83,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
 
 /// -log h = x expm1(l) + (theta-1) l, l = log1p((y/x)^theta) / theta.
 template <class D>
-HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Vec<D> x = hn::Neg(rows.log_of(0)), log_ratio = log(d, hn::Div(hn::Neg(rows.log_of(1)), x));
   const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), log_ratio);
   const auto in_range = hn::Gt(exponent, hn::Set(d, Precision<D>::kLowestExponent));
@@ -95,10 +99,94 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
                      hn::And(in_range, hn::And(rows.inside(0), rows.inside(1))));
 }
 
+/// s of some coordinates, s^theta = sum x_i^theta, and the absolute error of its logarithm.
+template <class D>
+struct PowerMean {
+  HWY_INLINE PowerMean(D d, const KernelConstants& c, const Columns<D>& rows, Index count) : inside(rows.inside(0)) {
+    Sum<D> powers(d);
+    for (Index k = 0; k < count; ++k) {
+      inside = hn::And(inside, rows.inside(k));
+      powers.add(d, exp(d, hn::Mul(hn::Set(d, c.theta), log(d, hn::Neg(rows.log_of(k))))));
+    }
+    const Vec<D> log_power = log(d, powers.value());
+    inside = hn::And(inside, hn::Gt(log_power, hn::Set(d, Precision<D>::kLowestExponent)));
+    log_value = hn::Mul(log_power, hn::Set(d, 1 / c.theta));
+    value = exp(d, log_value);
+    // A power t is off by t (1.5 theta + 2 |log t| + 1.5), the sum of t |log t| at most sum (|log sum| + log count).
+    const auto log2_above = static_cast<double>(std::bit_width(static_cast<std::size_t>(count)));
+    const double of_logs = 1.4 * log2_above + 4;  // 2 log 2 is below 1.4
+    error = hn::MulAdd(hn::Set(d, 5.0), hn::Abs(log_value), hn::Set(d, 2 + of_logs / c.theta));
+  }
+
+  Vec<D> value, log_value, error;
+  Mask<D> inside;
+};
+
+/// -log h = s expm1(l) + j (theta-1) l - log( R_j(e^-l / s) / R_j(1/s) ) of the j given, all positive, and its error
+/// and derivative in l.
+template <class D>
+struct Level {
+  /// @param of_l the absolute error of l.
+  HWY_INLINE Level(D d, const KernelConstants& c, Index given, const PowerMean<D>& s, const ScaledArgument<D>& at,
+                   Vec<D> l, Vec<D> of_l) {
+    const Vec<D> rounding = hn::Set(d, 1.5), of_s = hn::Add(s.error, hn::Set(d, 3.0));
+    const Vec<D> constant = hn::Set(d, static_cast<double>(given) * (c.theta - 1));
+    const Exponential<D> up = exponential(d, l), down = exponential(d, hn::Neg(l));
+    const Vec<D> distance = hn::Neg(down.expm1);
+    const RatioErrors<D> of{of_s, hn::Add(of_l, rounding),
+                            hn::Add(hn::Div(hn::Mul(of_l, down.exp), distance), rounding)};
+    const Decrease<D> ratio = decrease(d, c.polynomials[static_cast<std::size_t>(given)], at, down.exp, distance, of);
+    const Estimate<D> rest = ratio.fraction.minus_log(d);
+    const Vec<D> rise = hn::Mul(s.value, up.expm1);
+    moved = hn::Mul(s.value, up.exp);
+    value = hn::Add(hn::MulAdd(constant, l, rise), rest.value);
+    slope = hn::Add(hn::Add(moved, constant), ratio.slope);
+    const Vec<D> of_first = hn::MulAdd(hn::Add(moved, constant), of_l, hn::Mul(rise, of_s));
+    error = hn::Add(hn::MulAdd(hn::Set(d, 3.0), value, of_first), rest.error);
+    inside = hn::And(s.inside, ratio.inside);
+  }
+
+  Vec<D> value, slope, error;
+  Vec<D> moved;  // s e^l
+  Mask<D> inside;
+};
+
+template <class D>
+HWY_INLINE ScaledArgument<D> argument_at(D d, const KernelConstants& c, Index given, const PowerMean<D>& s) {
+  return ScaledArgument<D>(d, c.polynomials[static_cast<std::size_t>(given)], hn::Set(d, 1.0), s.value);
+}
+
+/// l = log1p((x/s)^theta) / theta.
+template <class D>
+HWY_INLINE Vec<D> conditional_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Vec<D> one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), theta = hn::Set(d, c.theta);
+  const Vec<D> inverse_theta = hn::Set(d, 1 / c.theta);
+  const PowerMean<D> s(d, c, rows, last);
+  const Vec<D> log_x = log(d, hn::Neg(rows.log_of(last))), exponent = hn::Mul(theta, hn::Sub(log_x, s.log_value));
+  const Vec<D> log_growth = log1p(d, exp(d, exponent)), l = hn::Mul(log_growth, inverse_theta);
+  // Of (x/s)^theta beside what its factors carry, and of l.
+  const Vec<D> of_logs = hn::Add(s.error, hn::MulAdd(two, hn::Abs(log_x), two));
+  const Vec<D> of_power = hn::MulAdd(theta, of_logs, hn::MulAdd(two, hn::Abs(exponent), two));
+  const Vec<D> of_l = hn::MulAdd(of_power, hn::Mul(hn::Min(log_growth, one), inverse_theta), hn::Mul(two, l));
+  const Level<D> level(d, c, last, s, argument_at(d, c, last, s), l, of_l);
+  const auto inside = hn::And(rows.inside(last), hn::Gt(exponent, hn::Set(d, Precision<D>::kLowestExponent)));
+  return probability(d, tail, hn::Neg(level.value), hn::Mul(hn::Set(d, Precision<D>::kUnit), level.error), kHTolerance,
+                     hn::And(inside, level.inside));
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_rows(d, c, tail, rows);
+  }
+  return conditional_pair(d, c, tail, rows);
+}
+
 /// l by Halley's iteration for the convex x expm1(l) + (theta-1) l = -log p from a point below the root, then
 /// y = x e^l (1 - e^(-theta l))^(1/theta), v = e^-y.
 template <class D>
-HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_inverse_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Vec<D> excess = hn::Set(d, c.theta - 1);
   const Vec<D> x = hn::Neg(rows.log_of(0)), target = hn::Neg(rows.log_of(1));
   Vec<D> l = log1p(d, hn::Div(target, hn::Add(x, excess)));
@@ -125,13 +213,64 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
                      hn::And(found, hn::And(rows.inside(0), rows.inside(1))));
 }
 
+/// The step of Halley's iteration for l, without what the polynomials add to the second derivative.
+template <class D>
+class LevelTrial {
+ public:
+  HWY_INLINE LevelTrial(D d, const KernelConstants& c, Index given, const PowerMean<D>& s, Vec<D> target)
+      : c_(c), given_(given), s_(s), at_(argument_at(d, c, given, s)), target_(target) {}
+
+  HWY_INLINE Trial<D> operator()(D d, Vec<D> l) const {
+    const Level<D> level(d, c_, given_, s_, at_, l, hn::Zero(d));
+    const Vec<D> excess = hn::Sub(target_, level.value), twice = hn::Add(level.slope, level.slope);
+    const Vec<D> divisor = hn::MulAdd(excess, level.moved, hn::Mul(twice, level.slope));
+    const Vec<D> error = hn::MulAdd(hn::Set(d, 1.5), target_, level.error);
+    return {hn::Div(hn::Mul(excess, twice), divisor), hn::Div(error, level.slope), level.inside};
+  }
+
+ private:
+  const KernelConstants& c_;
+  Index given_;
+  PowerMean<D> s_;
+  ScaledArgument<D> at_;
+  Vec<D> target_;
+};
+
+/// From a point below the root: the polynomials add at most (j-1) l; then y = s e^l (1 - e^(-theta l))^(1/theta).
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const PowerMean<D> s(d, c, rows, last);
+  const Vec<D> target = hn::Neg(rows.log_of(last));
+  const Vec<D> slope = hn::Add(s.value, hn::Set(d, static_cast<double>(last) * c.theta - 1));
+  const LevelTrial<D> trial(d, c, last, s, target);
+  const Root<D> l = find_root(d, log1p(d, hn::Div(target, slope)), trial);
+  const Vec<D> loss = hn::Neg(expm1(d, hn::Mul(hn::Set(d, -c.theta), l.value))), log_loss = log(d, loss);
+  const Vec<D> factor = exp(d, hn::Mul(log_loss, hn::Set(d, 1 / c.theta)));
+  const Vec<D> y = hn::Neg(hn::Mul(hn::Mul(s.value, exp(d, l.value)), factor));
+  const Vec<D> of_steps = hn::NegMulAdd(hn::Set(d, 3.0), log_loss, hn::MulAdd(hn::Set(d, 2.0), l.value, s.error));
+  const Vec<D> of_log = hn::Add(hn::Div(l.error, loss), hn::Add(of_steps, hn::Set(d, 12.0)));
+  const Vec<D> error = hn::Mul(hn::Mul(of_log, hn::Neg(y)), hn::Set(d, Precision<D>::kUnit));
+  return probability(d, tail, y, error, kInverseTolerance, hn::And(hn::And(s.inside, l.found), rows.inside(last)));
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_inverse_rows(d, c, tail, rows);
+  }
+  return conditional_inverse_pair(d, c, tail, rows);
+}
+
 struct Formulas {
   static constexpr int kPartsSingle = 4;
 
-  static bool answers_log_pdf(const KernelConstants& c, [[maybe_unused]] Index columns) {
-    return c.polynomial.usable();
+  static bool answers_log_pdf(const KernelConstants& c, Index columns) {
+    return c.polynomials[static_cast<std::size_t>(columns)].usable();
   }
-  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+  static bool answers_conditional(const KernelConstants& c, Index columns) {
+    return columns == 2 || c.polynomials[static_cast<std::size_t>(columns) - 1].usable();
+  }
 
   template <class D>
   static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
@@ -159,9 +298,9 @@ namespace sklar::families::gumbel {
 
 HWY_EXPORT(table);
 
-std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial) {
+std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials) {
   if (!(theta < 1e6)) return nullptr;
-  return make_kernels(KernelConstants{theta, std::move(polynomial)}, *HWY_DYNAMIC_DISPATCH(table)());
+  return make_kernels(KernelConstants{theta, std::move(polynomials)}, *HWY_DYNAMIC_DISPATCH(table)());
 }
 
 }  // namespace sklar::families::gumbel

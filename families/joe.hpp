@@ -39,8 +39,8 @@ struct Constants {
   T log_theta;
 };
 
-/// Vector kernels, or null for theta without. @param polynomial R_d in dimension d.
-[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial);
+/// Vector kernels, or null for theta without. @param polynomials R_n at n, to R_d in dimension d.
+[[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials);
 
 class Joe {
  public:
@@ -116,7 +116,7 @@ class Joe {
   }
 
   [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
-    return joe::kernels(constants<Narrow>().theta.value, polynomials_.coefficients(dim));
+    return joe::kernels(constants<Narrow>().theta.value, polynomials_.coefficients_to(dim));
   }
 
   [[nodiscard]] bool has_frailty() const { return true; }

@@ -20,7 +20,7 @@ struct KernelConstants {
   double theta;
   double rest;  // 1 - 1/theta
   double log_theta;
-  Coefficients polynomial;  // R_d
+  std::vector<Coefficients> polynomials;  // R_n at n
 };
 
 constexpr int kMostSteps = 20;
@@ -50,30 +50,47 @@ struct Weight {
   Vec<D> log_upper, q, p;
 };
 
-/// log c = (d-1) log theta + (theta-1) sum log(1-u_i) - (1 - 1/theta) log w + log R_d(P/w), P = prod p_i, w = 1 - P.
+/// P = prod p_i and w = 1 - P of some coordinates, with their errors; kPair: of two.
+template <class D, bool kPair = false>
+struct Weights {
+  HWY_INLINE Weights(D d, const KernelConstants& c, const Columns<D>& rows, Index count) : inside(rows.inside(0)) {
+    const auto n = static_cast<double>(count);
+    Product<D, kPair> product(d);
+    Sum<D, kPair> log_sum(d);
+    for (Index k = 0; k < count; ++k) {
+      inside = hn::And(inside, rows.inside(k));
+      const Weight<D> weight(d, c, rows, k);
+      product.multiply(d, weight.p, weight.q);
+      log_sum.add(d, weight.log_upper);
+    }
+    log_uppers = log_sum.value();
+    parts = product.parts(d, 1.0, 0.0);
+    inside = hn::And(inside, hn::Gt(parts.w, hn::Set(d, Precision<D>::kSmallestProbability)));
+    // q |log q| is below 1 - q, and where q is below w, below w max(1, |log w|).
+    of_w = hn::MulAdd(hn::Set(d, 2.0), hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0)), hn::Set(d, n / 2 + 3));
+    of_x = hn::Set(d, 3.5 * n + 1);
+  }
+
+  HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }
+
+  Mask<D> inside;
+  Vec<D> log_uppers;  // sum log(1-u_i)
+  Parts<D> parts;
+  Vec<D> of_x, of_w;
+};
+
+/// log c = (d-1) log theta + (theta-1) sum log(1-u_i) - (1 - 1/theta) log w + log R_d(P/w).
 template <bool kPair, class D>
 HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
   const Index size = kPair ? 2 : rows.size();
   const auto n = static_cast<double>(size);
-  Product<D, kPair> product(d);
-  Sum<D, kPair> log_sum(d);
-  auto inside = rows.inside(0);
-  for (Index k = 0; k < size; ++k) {
-    inside = hn::And(inside, rows.inside(k));
-    const Weight<D> weight(d, c, rows, k);
-    product.multiply(d, weight.p, weight.q);
-    log_sum.add(d, weight.log_upper);
-  }
-  const auto parts = product.parts(d, 1.0, 0.0);
-  inside = hn::And(inside, hn::Gt(parts.w, hn::Set(d, Precision<D>::kSmallestProbability)));
-  // q |log q| is below 1 - q, and where q is below w, below w max(1, |log w|).
-  const Vec<D> of_w =
-      hn::MulAdd(hn::Set(d, 2.0), hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0)), hn::Set(d, n / 2 + 3));
-  const Estimate<D> term = log_ratio_term(d, c.polynomial, parts, c.rest, hn::Set(d, 3.5 * n + 1), of_w);
-  const Vec<D> upper = hn::Mul(hn::Set(d, c.theta - 1), log_sum.value());
+  const Weights<D, kPair> all(d, c, rows, size);
+  const Coefficients& polynomial = c.polynomials[static_cast<std::size_t>(size)];
+  const Estimate<D> term = log_ratio_term(d, polynomial, all.parts, c.rest, all.of_x, all.of_w);
+  const Vec<D> upper = hn::Mul(hn::Set(d, c.theta - 1), all.log_uppers);
   const Vec<D> value = hn::Add(hn::Add(hn::Set(d, (n - 1) * c.log_theta), upper), term.value);
   const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -2.5), upper, hn::Set(d, 2 * n * c.log_theta)), term.error);
-  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
+  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, all.inside);
 }
 
 template <class D>
@@ -84,7 +101,7 @@ HWY_INLINE Vec<D> log_pdf_row(D d, const KernelConstants& c, const Columns<D>& r
 
 /// log h = log p_v - (1 - 1/theta) log1p(p_u q_v / q_u).
 template <class D>
-HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Weight<D> u(d, c, rows, 0), v(d, c, rows, 1);
   const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), hn::Sub(v.log_upper, u.log_upper));
   const Vec<D> ratio = hn::Mul(u.p, exp(d, exponent)), log_growth = log1p(d, ratio);
@@ -101,10 +118,60 @@ HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, cons
                      hn::And(rows.inside(0), rows.inside(1)));
 }
 
+/// -log h from z, 1 - z and its parts: -log p - (1 - 1/theta) log D - log( R_j(y z) / R_j(y) ), all positive, D = w + P
+/// z = 1 / (1 + P q/w).
+template <class D>
+struct Level {
+  HWY_INLINE Level(D d, const KernelConstants& c, const Coefficients& r, const ScaledArgument<D>& at, Vec<D> log_p,
+                   Vec<D> log_divisor, Vec<D> z, Vec<D> distance, const RatioErrors<D>& of)
+      : ratio(decrease(d, r, at, z, distance, of)) {
+    const Estimate<D> rest = ratio.fraction.minus_log(d);
+    value = hn::Sub(rest.value, hn::MulAdd(hn::Set(d, c.rest), log_divisor, log_p));
+    error = hn::MulAdd(hn::Set(d, 3.0), value, rest.error);
+  }
+
+  Decrease<D> ratio;
+  Vec<D> value, error;  // error: of the ratio and what the logarithms add
+};
+
+template <class D>
+HWY_INLINE Vec<D> conditional_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Weights<D> given(d, c, rows, last);
+  const Parts<D>& parts = given.parts;
+  const Vec<D> of_odds = given.of_odds();
+  const Weight<D> v(d, c, rows, last);
+  const Vec<D> of_q = hn::MulAdd(hn::Set(d, -2 * c.theta), v.log_upper, hn::Set(d, 3.0));
+  const Vec<D> growth = hn::Mul(parts.x, v.q), inverse = hn::Div(hn::Set(d, 1.0), hn::Add(growth, parts.w));
+  const Vec<D> share = hn::Mul(parts.w, inverse);  // D
+  const Vec<D> z = hn::Mul(v.p, share), distance = hn::Mul(v.q, inverse), lost = hn::Mul(growth, inverse);
+  const Vec<D> log_p = log_of_complement(d, v.p, v.q), log_divisor = log_of_complement(d, share, lost);
+  // p is off by 3.5, or where q is below 1/2, by q of_q.
+  const Vec<D> of_growth = hn::Add(of_odds, of_q), of_lost = hn::Mul(lost, of_growth);
+  const Vec<D> of_p = hn::MulAdd(hn::Add(of_q, of_q), v.q, hn::Mul(hn::Set(d, 8.0), lost));
+  const RatioErrors<D> of{of_odds, hn::Add(of_lost, hn::Set(d, 7.0)),
+                          hn::MulAdd(hn::Mul(parts.x, z), of_odds, hn::Add(of_q, hn::Set(d, 4.0)))};
+  const Coefficients& r = c.polynomials[static_cast<std::size_t>(last)];
+  const ScaledArgument<D> at(d, r, parts.x, parts.w);
+  const Level<D> level(d, c, r, at, log_p, log_divisor, z, distance, of);
+  const Vec<D> error = hn::Mul(hn::Set(d, Precision<D>::kUnit), hn::Add(level.error, hn::Add(of_lost, of_p)));
+  const auto in_range = hn::Gt(v.q, hn::Set(d, Precision<D>::kSmallestProbability));
+  return probability(d, tail, hn::Neg(level.value), error, kHTolerance,
+                     hn::And(hn::And(in_range, given.inside), hn::And(level.ratio.inside, rows.inside(last))));
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_rows(d, c, tail, rows);
+  }
+  return conditional_pair(d, c, tail, rows);
+}
+
 /// s = -log p_v by Newton's iteration for the concave s + (1 - 1/theta) log1p(k (1 - e^-s)) = -log p, k = p_u / q_u,
 /// from a point below the root; q_v = 1 - e^-s, 1 - v = q_v^(1/theta).
 template <class D>
-HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+HWY_INLINE Vec<D> conditional_inverse_pair(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Weight<D> u(d, c, rows, 0);
   const Vec<D> rest = hn::Set(d, c.rest), one = hn::Set(d, 1.0);
   const Vec<D> odds = hn::Div(u.p, u.q), target = hn::Neg(rows.log_of(1));
@@ -135,13 +202,75 @@ HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail ta
                      hn::And(hn::And(in_range, hn::Not(moving)), hn::And(rows.inside(0), rows.inside(1))));
 }
 
+/// The step of Newton's method for s = -log z.
+template <class D>
+class LevelTrial {
+ public:
+  HWY_INLINE LevelTrial(D d, const KernelConstants& c, const Coefficients& r, const Parts<D>& parts, Vec<D> of_odds,
+                        Vec<D> log_target)
+      : c_(c), r_(r), at_(d, r, parts.x, parts.w), parts_(parts), of_odds_(of_odds), log_target_(log_target) {}
+
+  HWY_INLINE Trial<D> operator()(D d, Vec<D> s) const {
+    const Exponential<D> e = exponential(d, hn::Neg(s));
+    const Vec<D> one = hn::Set(d, 1.0), rounding = hn::Set(d, 1.5), distance = hn::Neg(e.expm1);
+    const Vec<D> divisor = hn::MulAdd(parts_.x, e.exp, parts_.w), inverse = hn::Div(one, divisor);
+    const Vec<D> lost = hn::Mul(parts_.x, distance), w = hn::Mul(parts_.w, inverse);
+    const Vec<D> p = hn::Mul(e.exp, inverse), q = hn::Mul(distance, w);
+    const Level<D> level(d, c_, r_, at_, log_of_complement(d, p, q), log_of_complement(d, divisor, lost), e.exp,
+                         distance, RatioErrors<D>{of_odds_, rounding, rounding});
+    const Vec<D> slope =
+        hn::Add(level.ratio.slope, hn::MulAdd(hn::Mul(hn::Set(d, c_.rest), e.exp), hn::Mul(parts_.x, inverse), w));
+    // log p and log D change by x q dy/y.
+    const Vec<D> of_odds = hn::Mul(hn::Mul(parts_.x, q), hn::Add(of_odds_, of_odds_));
+    const Vec<D> of_logs = hn::MulAdd(hn::Set(d, 12.0), hn::Min(one, hn::Add(q, lost)), of_odds);
+    const Vec<D> error = hn::NegMulAdd(rounding, log_target_, hn::Add(level.error, of_logs));
+    return {hn::Neg(hn::Div(hn::Add(log_target_, level.value), slope)), hn::Div(error, slope), level.ratio.inside};
+  }
+
+ private:
+  const KernelConstants& c_;
+  const Coefficients& r_;
+  ScaledArgument<D> at_;
+  Parts<D> parts_;
+  Vec<D> of_odds_, log_target_;
+};
+
+/// 1 - v = q^(1/theta).
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  const Index last = rows.size() - 1;
+  const Weights<D> given(d, c, rows, last);
+  const Vec<D> of_odds = given.of_odds();
+  const Coefficients& r = c.polynomials[static_cast<std::size_t>(last)];
+  const LevelTrial<D> trial(d, c, r, given.parts, of_odds, rows.log_of(last));
+  const Root<D> root = find_root(d, hn::Zero(d), trial);
+  const NextWeight<D> next(d, given.parts, of_odds, root);
+  const Vec<D> q = next.complement;
+  const Vec<D> log_upper = hn::Mul(log_of_complement(d, q, next.value), hn::Set(d, 1 / c.theta));
+  const Vec<D> carried = hn::Div(hn::Mul(next.error, hn::Set(d, 1 / c.theta)), q);
+  const Vec<D> error = hn::Mul(hn::NegMulAdd(hn::Set(d, 14.0), log_upper, carried), hn::Set(d, Precision<D>::kUnit));
+  const auto in_range = hn::Gt(q, hn::Set(d, Precision<D>::kSmallestProbability));
+  return probability(d, tail == Tail::lower ? Tail::upper : Tail::lower, log_upper, error, kInverseTolerance,
+                     hn::And(hn::And(in_range, given.inside), hn::And(root.found, rows.inside(last))));
+}
+
+template <class D>
+HWY_INLINE Vec<D> conditional_inverse_row(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
+  if constexpr (!Precision<D>::kSingle) {
+    if (rows.size() > 2) return conditional_inverse_rows(d, c, tail, rows);
+  }
+  return conditional_inverse_pair(d, c, tail, rows);
+}
+
 struct Formulas {
   static constexpr int kPartsSingle = 4;
 
-  static bool answers_log_pdf(const KernelConstants& c, [[maybe_unused]] Index columns) {
-    return c.polynomial.usable();
+  static bool answers_log_pdf(const KernelConstants& c, Index columns) {
+    return c.polynomials[static_cast<std::size_t>(columns)].usable();
   }
-  static bool answers_conditional(const KernelConstants&, Index columns) { return columns == 2; }
+  static bool answers_conditional(const KernelConstants& c, Index columns) {
+    return columns == 2 || c.polynomials[static_cast<std::size_t>(columns) - 1].usable();
+  }
 
   template <class D>
   static HWY_INLINE Vec<D> log_pdf(D d, const KernelConstants& c, const Columns<D>& rows) {
@@ -169,9 +298,9 @@ namespace sklar::families::joe {
 
 HWY_EXPORT(table);
 
-std::shared_ptr<const Kernels> kernels(double theta, Coefficients polynomial) {
+std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials) {
   if (!(theta < 1e6)) return nullptr;
-  return make_kernels(KernelConstants{theta, (theta - 1) / theta, std::log(theta), std::move(polynomial)},
+  return make_kernels(KernelConstants{theta, (theta - 1) / theta, std::log(theta), std::move(polynomials)},
                       *HWY_DYNAMIC_DISPATCH(table)());
 }
 

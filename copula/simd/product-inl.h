@@ -8,6 +8,7 @@
 #define SKLAR_COPULA_SIMD_PRODUCT_INL_H_
 #endif
 
+#include "copula/simd/decrease-inl.h"
 #include "copula/simd/polynomial-inl.h"
 #include "copula/simd/rows-inl.h"
 
@@ -52,6 +53,71 @@ class Product {
 
   ExactProduct<D, kPlain> value_;
   Vec<D> complement_;
+};
+
+/// The relative error of x/w from those of x and of w where they are computed: dy/y = dx/(x w).
+template <class D>
+HWY_INLINE Vec<D> error_of_odds(const Parts<D>& parts, Vec<D> of_x, Vec<D> of_w) {
+  return hn::IfThenElse(parts.near_one, hn::Div(of_w, parts.x), hn::Div(of_x, parts.w));
+}
+
+/// The factor by which another coordinate of weight a, 1 - a = delta, multiplies y = x/w: z = a w / (w + x delta).
+template <class D>
+struct NextFactor {
+  HWY_INLINE NextFactor(D d, const Parts<D>& parts, Vec<D> of_odds, Vec<D> a, Vec<D> delta, double of_a,
+                        double of_delta) {
+    const Vec<D> growth = hn::Mul(parts.x, delta);
+    const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), hn::Add(growth, parts.w));
+    z = hn::Mul(a, hn::Mul(parts.w, inverse));
+    distance = hn::Mul(delta, inverse);
+    const Vec<D> of_growth = hn::Add(of_odds, hn::Set(d, of_delta + 2));
+    of = {of_odds, hn::MulAdd(hn::Mul(growth, inverse), of_growth, hn::Set(d, of_a + 3)),
+          hn::MulAdd(hn::Mul(parts.x, z), of_odds, hn::Set(d, of_delta + 4))};
+  }
+
+  Vec<D> z, distance;
+  RatioErrors<D> of;
+};
+
+/// The a of the coordinate whose factor is e^-s, with 1 - a and the absolute error of both that s and y carry.
+template <class D>
+struct NextWeight {
+  HWY_INLINE NextWeight(D d, const Parts<D>& parts, Vec<D> of_odds, const Root<D>& s) {
+    const Exponential<D> e = exponential(d, hn::Neg(s.value));
+    const Vec<D> distance = hn::Neg(e.expm1);
+    const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), hn::MulAdd(parts.x, e.exp, parts.w));
+    const Vec<D> share = hn::Mul(parts.w, inverse);
+    value = hn::Mul(e.exp, inverse);
+    complement = hn::Mul(distance, share);
+    error = hn::Mul(hn::Mul(value, share), hn::MulAdd(hn::Mul(of_odds, parts.x), distance, s.error));
+  }
+
+  Vec<D> value, complement, error;
+};
+
+/// The step of Newton's method for the s = -log z at which z R(z y) / R(y) = p, y = x/w: its logarithm is a concave
+/// function of s.
+template <class D>
+class FactorTrial {
+ public:
+  HWY_INLINE FactorTrial(D d, const Coefficients& r, const Parts<D>& parts, Vec<D> of_odds, Vec<D> log_p)
+      : r_(r), at_(d, r, parts.x, parts.w), of_odds_(of_odds), log_p_(log_p) {}
+
+  HWY_INLINE Trial<D> operator()(D d, Vec<D> s) const {
+    const Exponential<D> e = exponential(d, hn::Neg(s));
+    const Vec<D> rounding = hn::Set(d, 1.5);
+    const Decrease<D> total =
+        decrease_with_factor(d, r_, at_, e.exp, hn::Neg(e.expm1), RatioErrors<D>{of_odds_, rounding, rounding});
+    const Estimate<D> level = total.fraction.minus_log(d);
+    const Vec<D> inverse = hn::Div(hn::Set(d, 1.0), total.slope);
+    return {hn::Neg(hn::Mul(hn::Add(log_p_, level.value), inverse)),
+            hn::Mul(hn::NegMulAdd(rounding, log_p_, level.error), inverse), total.inside};
+  }
+
+ private:
+  const Coefficients& r_;
+  ScaledArgument<D> at_;
+  Vec<D> of_odds_, log_p_;
 };
 
 /// log R(x/w) - b log w, 0 <= b <= 1, and its error in units of 2^-52.

@@ -3,7 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "copula/archimedean_copula.hpp"
+#include "copula/study/tradeoff.hpp"
 #include "copula/tolerance.hpp"
+#include "families/amh.hpp"
+#include "families/clayton.hpp"
+#include "families/frank.hpp"
+#include "families/gumbel.hpp"
+#include "families/joe.hpp"
 #include "families/registry.hpp"
 #include "tests/support/family_cases.hpp"
 #include "tests/support/instruction_sets.hpp"
@@ -77,19 +83,6 @@ void expect_every_target_within(const FamilyInfo& family, int dim, const Theta& 
 
 class Kernels : public testing::TestWithParam<FamilyInfo> {};
 
-TEST_P(Kernels, AnswerWithinTheTolerance) {
-  for (const int dim : {2, 3, 10}) {
-    for (const Theta& theta : GetParam().examples) {
-      if (GetParam().admits(dim, theta)) expect_every_target_within(GetParam(), dim, theta);
-      if (HasFatalFailure()) return;
-    }
-  }
-}
-
-TEST(JoeKernels, AnswerWithinTheToleranceNearIndependence) {
-  expect_every_target_within(families::find("joe"), 2, {1.0001});
-}
-
 /// The parameters of the examples and of weak to strong dependence between them.
 std::vector<Theta> many_thetas(const FamilyInfo& family) {
   std::vector<Theta> thetas = family.examples;
@@ -97,6 +90,61 @@ std::vector<Theta> many_thetas(const FamilyInfo& family) {
     if (family.theta_from_tau && family.tau_range(2).contains(tau)) thetas.push_back(family.from_tau(2, tau));
   }
   return thetas;
+}
+
+TEST_P(Kernels, AnswerWithinTheTolerance) {
+  for (const int dim : {2, 3, 4, 5, 10, 30}) {
+    for (const Theta& theta : many_thetas(GetParam())) {
+      if (GetParam().admits(dim, theta)) expect_every_target_within(GetParam(), dim, theta);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+using MakeKernels = std::shared_ptr<const sklar::Kernels> (*)(int dim, const Theta& theta);
+
+template <auto kGenerator>
+std::shared_ptr<const sklar::Kernels> kernels_of(int dim, const Theta& theta) {
+  return kGenerator(dim, theta).kernels(dim);
+}
+
+/// At most this share of rows of many coordinates is left to the exact route.
+constexpr double kMostLeft = 0.02;
+
+void expect_few_left(const std::string& name, MakeKernels make, int dim) {
+  const FamilyInfo& family = families::find(name);
+  const Theta theta = medium_theta(family, dim);
+  Rng rng(3);
+  const Points u = family.make(dim, theta)->sample_by(Route::frailty, 2000, rng);
+  const auto kernels = make(dim, theta);
+  const auto left = [&](auto evaluate) {
+    Column values = Column::Constant(u.rows(), std::numeric_limits<double>::quiet_NaN());
+    evaluate(Rows(u), values.data());
+    return static_cast<double>(values.isNaN().count()) / static_cast<double>(u.rows());
+  };
+  constexpr Accuracy kStandard = Accuracy::standard;
+  SCOPED_TRACE(name + ", d = " + std::to_string(dim));
+  EXPECT_LE(left([&](const Rows& rows, double* out) { kernels->log_pdf(kStandard, rows, out); }), kMostLeft);
+  for (const Tail tail : {Tail::lower, Tail::upper}) {
+    EXPECT_LE(left([&](const Rows& rows, double* out) { kernels->conditional(kStandard, rows, tail, out); }),
+              kMostLeft);
+    EXPECT_LE(left([&](const Rows& rows, double* out) { kernels->conditional_inverse(kStandard, rows, tail, out); }),
+              kMostLeft);
+  }
+}
+
+TEST(KernelsOfManyDimensions, AnswerMostRows) {
+  for (const int dim : {3, 5, 10}) {
+    expect_few_left("frank", kernels_of<families::frank::generator>, dim);
+    expect_few_left("clayton", kernels_of<families::clayton::generator>, dim);
+    expect_few_left("gumbel", kernels_of<families::gumbel::generator>, dim);
+    expect_few_left("joe", kernels_of<families::joe::generator>, dim);
+    expect_few_left("amh", kernels_of<families::amh::generator>, dim);
+  }
+}
+
+TEST(JoeKernels, AnswerWithinTheToleranceNearIndependence) {
+  expect_every_target_within(families::find("joe"), 2, {1.0001});
 }
 
 // Single precision counts roundings at half their worst: its bound holds by this test, on many points.
