@@ -11,6 +11,8 @@
 //
 #include <hwy/foreach_target.h>
 //
+#include <numbers>
+
 #include "copula/simd/product-inl.h"
 #include "copula/simd/rows-inl.h"
 #include "families/amh.hpp"
@@ -27,12 +29,17 @@ struct KernelConstants {
         rest(1 - parameter),
         lost_rest((1 - rest) - parameter),
         log_rest(std::log1p(-parameter)),
+        balance(std::exp2(-std::round(log_rest / (2 * std::numbers::ln2)))),
+        log_balance(static_cast<double>(std::log1p(-static_cast<long double>(parameter)) +
+                                        2 * std::log(static_cast<long double>(balance)))),
         polynomials(std::move(coefficients)) {}
 
   double theta, size;  // theta and |theta|
   double rest;         // 1 - theta
   double lost_rest;    // 1 - theta - rest
   double log_rest;
+  double balance;      // b: the power of 2 next to (1-theta)^(-1/2), the geometric mean of 1 / D at both ends
+  double log_balance;  // log(b^2 (1-theta))
   std::vector<Coefficients> polynomials;  // R_n at n
 };
 
@@ -102,42 +109,49 @@ struct Weight {
   Vec<D> scaling, lost_scaling, a, lost_a, complement;
 };
 
-/// x = theta prod a_i and w = 1 - x of some coordinates for theta > 0, with their errors, and prod D(u_i).
+/// x = theta prod a_i and w = 1 - x of some coordinates for theta > 0, with their errors, and prod b D(u_i), b a power
+/// of 2 that keeps it near 1.
 template <class D>
 struct Weights {
   HWY_INLINE Weights(D d, const KernelConstants& c, const Columns<D>& rows, Index count) : inside(rows.inside(0)) {
     Product<D> product(d);
     ExactProduct<D> all_scalings(d);
+    const Vec<D> balance = hn::Set(d, c.balance);
     for (Index k = 0; k < count; ++k) {
       inside = hn::And(inside, rows.inside(k));
       const Weight<D> weight(d, c, rows[k], rows.upper(k));
       product.multiply(d, weight.a, weight.lost_a, weight.complement);
-      all_scalings.multiply(d, weight.scaling, weight.lost_scaling);
+      all_scalings.multiply(d, hn::Mul(weight.scaling, balance), hn::Mul(weight.lost_scaling, balance));
     }
-    parts = product.parts(d, c.theta, c.rest);
+    constexpr double kOfProduct = 2;
+    const double of_complements = static_cast<double>(count) / 2 + 5;
+    parts = product.parts(d, c.theta, c.rest, equal_errors_at(kOfProduct, of_complements));
     scalings = all_scalings.value();
-    of_x = hn::Set(d, 2.0);
-    of_w = hn::Set(d, static_cast<double>(count) / 2 + 5);
+    of_x = hn::Set(d, kOfProduct);
+    of_w = hn::Set(d, of_complements);
   }
 
   HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }
 
   Mask<D> inside;
-  Vec<D> scalings;  // prod D(u_i)
+  Vec<D> scalings;  // prod b D(u_i)
   Parts<D> parts;
   Vec<D> of_x, of_w;
 };
 
-/// log c = (d+1) log(1-theta) - 2 log prod D(u_i) - log w + log R_(d+1)(x/w).
+/// log c = log(1-theta) + d log(b^2 (1-theta)) - 2 log prod b D(u_i) - log w + log R_(d+1)(x/w).
 template <class D>
 HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
   const Weights<D> all(d, c, rows, rows.size());
   const Coefficients& polynomial = c.polynomials[static_cast<std::size_t>(rows.size()) + 1];
   const Estimate<D> term = log_ratio_term(d, polynomial, all.parts, 1.0, all.of_x, all.of_w);
   const Vec<D> log_scalings = log(d, all.scalings);
-  const double constant = static_cast<double>(rows.size() + 1) * c.log_rest;
-  const Vec<D> value = hn::Add(hn::NegMulAdd(hn::Set(d, 2.0), log_scalings, hn::Set(d, constant)), term.value);
-  const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -4.0), log_scalings, hn::Set(d, 2 - 2 * constant)), term.error);
+  const double balances = static_cast<double>(rows.size()) * c.log_balance;
+  const Vec<D> front = hn::NegMulAdd(hn::Set(d, 2.0), log_scalings, hn::Set(d, c.log_rest + balances));
+  const Vec<D> value = hn::Add(front, term.value);
+  const double of_constant = 1.5 * std::abs(balances) - 1.5 * c.log_rest + 3;
+  const Vec<D> of_front = hn::MulAdd(hn::Set(d, 4.0), hn::Abs(log_scalings), hn::Set(d, of_constant));
+  const Vec<D> error = hn::Add(of_front, term.error);
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, all.inside);
 }
 

@@ -107,10 +107,11 @@ struct Weights {
       sum_of_u.add(d, u);
     }
     sum = sum_of_u.value();
-    parts = product.parts(d, c.q, c.tail);
+    const double of_complements = n / 2 + c.theta / 2 + 3, of_product = 2.3 * n + 2;
+    parts = product.parts(d, c.q, c.tail, equal_errors_at(of_product, of_complements));
     const Vec<D> of_difference = hn::Div(hn::Set(d, n * c.tail * (c.theta / 2 + 2)), parts.w);
-    of_w = hn::Add(of_difference, hn::Set(d, n / 2 + c.theta / 2 + 3));
-    of_x = hn::Set(d, 2.3 * n + 2);
+    of_w = hn::Add(of_difference, hn::Set(d, of_complements));
+    of_x = hn::Set(d, of_product);
   }
 
   HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }

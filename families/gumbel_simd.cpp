@@ -68,10 +68,9 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> of_log_s = hn::MulAdd(hn::Set(d, 3.0), hn::Abs(log_s), hn::Set(d, 3 + 4 / c.theta));
   const Vec<D> weight = hn::Add(hn::Add(s, polynomial.slope), hn::Set(d, excess * n));
   const Vec<D> of_ratios = hn::MulAdd(hn::Set(d, 2.5 * excess), sizes, hn::Set(d, 1.5 * excess * n));
-  const Vec<D> of_rest =
-      hn::MulAdd(hn::Set(d, 2.5), hn::Add(x_sum.value(), s), hn::Abs(hn::Add(polynomial.log, polynomial.log)));
-  const Vec<D> steps = hn::Set(d, n + 2 + coefficients.relative_error / Precision<D>::kUnit);
-  const Vec<D> error = hn::MulAdd(of_log_s, weight, hn::Add(hn::Add(of_ratios, of_rest), steps));
+  const Vec<D> of_rest = hn::MulAdd(hn::Set(d, 2.5), hn::Add(x_sum.value(), s), polynomial.error);
+  const Vec<D> of_coefficients = hn::Set(d, coefficients.relative_error / Precision<D>::kUnit);
+  const Vec<D> error = hn::MulAdd(of_log_s, weight, hn::Add(hn::Add(of_ratios, of_rest), of_coefficients));
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
 }
 

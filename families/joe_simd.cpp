@@ -64,11 +64,13 @@ struct Weights {
       log_sum.add(d, weight.log_upper);
     }
     log_uppers = log_sum.value();
-    parts = product.parts(d, 1.0, 0.0);
+    const double of_complements = n / 2 + 3, of_product = 3.5 * n + 1;
+    parts = product.parts(d, 1.0, 0.0, equal_errors_at(of_product, of_complements + 2));
     inside = hn::And(inside, hn::Gt(parts.w, hn::Set(d, Precision<D>::kSmallestProbability)));
     // q |log q| is below 1 - q, and where q is below w, below w max(1, |log w|).
-    of_w = hn::MulAdd(hn::Set(d, 2.0), hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0)), hn::Set(d, n / 2 + 3));
-    of_x = hn::Set(d, 3.5 * n + 1);
+    const Vec<D> log_size = hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0));
+    of_w = hn::MulAdd(hn::Set(d, 2.0), log_size, hn::Set(d, of_complements));
+    of_x = hn::Set(d, of_product);
   }
 
   HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }

@@ -36,24 +36,25 @@ class Product {
     value_.multiply(d, a, lost);
   }
 
-  HWY_INLINE Vec<D> complement() const { return complement_; }
-
   /// @param rest 1 - s.
-  HWY_INLINE Parts<D> parts(D d, double s, double rest) const {
+  /// @param near_one_below the w below which the sum of complements leaves the smaller error of x/w.
+  HWY_INLINE Parts<D> parts(D d, double s, double rest, double near_one_below) const {
     const Vec<D> one = hn::Set(d, 1.0);
     const Vec<D> x = hn::Mul(hn::Set(d, s), value_.value());
     const Vec<D> w = hn::MulAdd(hn::Set(d, s), complement_, hn::Set(d, rest));
-    const auto near_one = hn::Lt(w, hn::Set(d, kNearOne));
+    const auto near_one = hn::Lt(w, hn::Set(d, near_one_below));
     return {hn::IfThenElse(near_one, hn::Sub(one, w), x), hn::IfThenElse(near_one, w, hn::Sub(one, x)), near_one};
   }
 
  private:
-  // Below it the sum of complements, of a smaller error than the product, leaves the smaller error of x/w.
-  static constexpr double kNearOne = 0.75;
-
   ExactProduct<D, kPlain> value_;
   Vec<D> complement_;
 };
+
+/// The w at which both routes are as exact: of_w w = of_x x, the errors relative.
+constexpr double equal_errors_at(double of_x, double of_w) {
+  return of_x / (of_x + of_w);
+}
 
 /// The relative error of x/w from those of x and of w where they are computed: dy/y = dx/(x w).
 template <class D>
@@ -131,10 +132,9 @@ HWY_INLINE Estimate<D> log_ratio_term(D d, const Coefficients& r, const Parts<D>
   const Vec<D> derivative = hn::MulAdd(hn::Set(d, b), parts.x, polynomial.slope);
   const Vec<D> moved = hn::IfThenElse(parts.near_one, hn::Div(hn::Mul(derivative, of_w), parts.x),
                                       hn::Div(hn::Mul(derivative, of_x), parts.w));
-  const Vec<D> sizes = hn::Add(hn::Abs(polynomial.log), hn::Abs(log_w));
-  const auto n = static_cast<double>(r.c.size());
-  const Vec<D> steps = hn::Add(moved, hn::Set(d, n + 2 + r.relative_error / Precision<D>::kUnit));
-  return {hn::Sub(polynomial.log, log_w), hn::MulAdd(hn::Set(d, 2.0), sizes, steps)};
+  const Vec<D> rest = hn::Add(moved, hn::Set(d, r.relative_error / Precision<D>::kUnit));
+  const Vec<D> error = hn::MulAdd(hn::Set(d, 2.0), hn::Abs(log_w), polynomial.error);
+  return {hn::Sub(polynomial.log, log_w), hn::Add(error, rest)};
 }
 
 }  // namespace sklar::simd::HWY_NAMESPACE::formulas

@@ -141,6 +141,7 @@ TEST(KernelsOfManyDimensions, AnswerMostRows) {
     expect_few_left("joe", kernels_of<families::joe::generator>, dim);
     expect_few_left("amh", kernels_of<families::amh::generator>, dim);
   }
+  for (const int dim : {20, 50, 100}) expect_few_left("amh", kernels_of<families::amh::generator>, dim);
 }
 
 TEST(JoeKernels, AnswerWithinTheToleranceNearIndependence) {
