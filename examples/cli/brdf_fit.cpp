@@ -151,12 +151,13 @@ void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table
   if (!std::isinf(options.max_albedo)) {
     throw std::invalid_argument("--max-albedo: '" + table.name + "' is anisotropic, the limit is for isotropic models");
   }
+  brdf::AnisotropicFitOptions fit_options{.objective = options.fit.refined.objective,
+                                          .measure = options.fit.measure,
+                                          .bits = options.fit.bits.value_or(brdf::kLadderBits)};
+  fit_options.evaluations = options.fit.evaluations.value_or(fit_options.evaluations);
   const StepLine steps;
   const brdf::AnisotropicChoice choice =
-      brdf::choose_anisotropic(table, usual(options.fit.budget),
-                               {.objective = options.fit.refined.objective,
-                                .measure = options.fit.measure,
-                                .bits = options.fit.bits.value_or(brdf::kLadderBits)},
+      brdf::choose_anisotropic(table, usual(options.fit.budget), fit_options,
                                [&](const std::string& what) { steps.show(table.name + ": " + what); });
   const brdf::AnisotropicPoint& point = choice.front[choice.chosen];
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};

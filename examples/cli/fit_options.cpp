@@ -36,6 +36,8 @@ void add_fit_options(CLI::App& command, FitOptions& options, const std::string& 
       ->default_str("balanced");
   command.add_option("--bits", options.bits,
                      "refined: bits of a stored coefficient, 6 to 16; omitted: 12, with a budget 8, 10, 12 and 14");
+  command.add_option("--evaluations", options.evaluations,
+                     "refined: of the objective in one fit, at most; omitted: 800, anisotropic 600");
   command.add_option("--max-bytes", options.budget.max_bytes, "refined: bytes of the stored model, at most");
   command.add_option("--measure", options.measure, "what a cell counts: one (cell) or its solid angle")
       ->transform(CLI::CheckedTransformer(by_text({CellMeasure::per_cell, CellMeasure::per_solid_angle})))
@@ -55,6 +57,7 @@ void settle_fit_options(const CLI::App& command, FitOptions& options) {
   }
   options.paper.measure = options.measure;
   options.refined.measure = options.measure;
+  options.refined.evaluations = options.evaluations.value_or(options.refined.evaluations);
 }
 
 }  // namespace sklar::cli

@@ -16,6 +16,7 @@ struct FitOptions {
   brdf::PaperFitOptions paper = {};
   brdf::RefinedFitOptions refined = {};
   std::optional<int> bits = {};
+  std::optional<int> evaluations = {};
   brdf::CellMeasure measure = brdf::CellMeasure::per_cell;
   brdf::Budget budget = {};
   brdf::Provenance provenance = brdf::Provenance::unknown;
@@ -27,7 +28,7 @@ struct FitOptions {
 /// say).
 void add_fit_options(CLI::App& command, FitOptions& options, const std::string& default_mode);
 
-/// Puts --measure where it belongs. @throws std::invalid_argument for an option of the other mode.
+/// Puts --measure and --evaluations where they belong. @throws std::invalid_argument for an option of the other mode.
 void settle_fit_options(const CLI::App& command, FitOptions& options);
 
 }  // namespace sklar::cli

@@ -102,7 +102,7 @@ TEST_F(BrdfCommand, AnisotropicMaterialsAreRefusedWhereIsotropicOnesAreNeeded) {
 TEST_F(BrdfCommand, AnisotropicMaterialsAreFittedAndDrawn) {
   const brdf::BrdfPtr metal = brdf::brushed_metal();
   write("brushed.bsdf", test::tensor_file(test::AnisotropicBsdf(*metal, 0.12, 0.40, {.folds = 4}).fields()));
-  const Result fit = run("brdf fit brushed.bsdf --max-bytes 600 -o model.json --json");
+  const Result fit = run("brdf fit brushed.bsdf --max-bytes 600 --evaluations 60 -o model.json --json");
   ASSERT_EQ(fit.status, 0) << fit.err;
   const auto document = nlohmann::json::parse(fit.out);
   EXPECT_EQ(document["mode"], "anisotropic");
@@ -124,7 +124,7 @@ TEST_F(BrdfCommand, AnisotropicMaterialsAreFittedAndDrawn) {
 TEST_F(BrdfCommand, IsotropicMaterialsInAnisotropicFilesAreFittedAsIsotropic) {
   const brdf::Ggx gloss({0.2, 0.5, 0.8}, 0.3);
   write("gloss.bsdf", test::tensor_file(test::AnisotropicBsdf(gloss, 0.3, 0.3, {.folds = 4}).fields()));
-  const Result fit = run("brdf fit gloss.bsdf --max-bytes 600 -o model.json");
+  const Result fit = run("brdf fit gloss.bsdf --max-bytes 600 --evaluations 20 -o model.json");
   ASSERT_EQ(fit.status, 0) << fit.err;
   EXPECT_EQ(fit.out.rfind("isotropy deviation 0.0", 0), 0U) << fit.out;
   EXPECT_NE(fit.out.find(": fitted as isotropic\n"), std::string::npos) << fit.out;
@@ -176,7 +176,7 @@ TEST_F(BrdfCommand, FitWritesAModelThatTheOthersRead) {
 }
 
 TEST_F(BrdfCommand, FitChoosesTheModelByTheBudget) {
-  const Result fit = run("brdf fit --family frank --max-bytes 600 -o model.json");
+  const Result fit = run("brdf fit --family frank --max-bytes 600 --evaluations 40 -o model.json");
   ASSERT_EQ(fit.status, 0) << fit.err;
   EXPECT_NE(fit.out.find("| chosen |"), std::string::npos) << fit.out;
   const auto model = nlohmann::json::parse(read("model.json"));
@@ -186,7 +186,8 @@ TEST_F(BrdfCommand, FitChoosesTheModelByTheBudget) {
 }
 
 TEST_F(BrdfCommand, CompareTakesTheRefinedMode) {
-  const Result result = run("brdf compare --mode refined --max-bytes 600 --families independence,frank --out out");
+  const Result result =
+      run("brdf compare --mode refined --max-bytes 600 --evaluations 40 --families independence,frank --out out");
   ASSERT_EQ(result.status, 0) << result.err;
   const auto document = nlohmann::json::parse(read("out/results.json"));
   EXPECT_EQ(document["rows"][1]["mode"], "refined");
