@@ -125,6 +125,12 @@ double Coupling::tau(double dependence) const {
   return lowest_ + (highest_ - lowest_) * logistic(dependence + start_);
 }
 
+double Coupling::dependence(double tau) const {
+  constexpr double kEdge = 0.005;
+  const double share = std::clamp((tau - lowest_) / (highest_ - lowest_), kEdge, 1 - kEdge);
+  return std::log(share / (1 - share)) - start_;
+}
+
 double Coupling::tau_slope(double dependence) const {
   const double share = logistic(dependence + start_);
   return (highest_ - lowest_) * share * (1 - share);

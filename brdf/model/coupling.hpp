@@ -48,6 +48,9 @@ class Coupling {
   /// tau at a coefficient of the dependence.
   [[nodiscard]] double tau(double dependence) const;
 
+  /// The coefficient at which tau is that, or the nearest in the middle 99 % of what is sought.
+  [[nodiscard]] double dependence(double tau) const;
+
   [[nodiscard]] CouplingValues values(const CouplingInput& input) const;
 
   /// @param slopes of a function by the values. @return its derivatives by the input.

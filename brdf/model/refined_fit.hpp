@@ -31,11 +31,22 @@ struct RefinedFit {
 };
 
 /// All coefficients together, by L-BFGS with exact gradients, in stages in which the absolute values of the objective
-/// become sharper. Only valid cells count; those with an angle beyond 80 degrees a tenth, those with a cosine below
-/// 0.02 not at all. Deterministic, whatever the number of threads.
+/// become sharper; the copulas join in after a quarter of the evaluations. Only valid cells count; those with an angle
+/// beyond 80 degrees a tenth, those with a cosine below 0.02 not at all. Deterministic, whatever the number of threads.
 /// @throws std::invalid_argument for options out of range or a table that fails require_table or has no valid cell with
 /// both angles at most 80 degrees.
 [[nodiscard]] RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& options = {},
                                      const Progress& progress = {});
+
+/// The same from where another fit of the same structure ended, whatever its families: each copula starts with the
+/// nearest tau that its family has. @throws std::invalid_argument also for a fit of another structure.
+[[nodiscard]] RefinedFit refit_refined(const MeasuredTable& table, const RefinedFitOptions& options,
+                                       const RefinedFit& from, const Progress& progress = {});
+
+/// One family a component: that of the candidates with the least objective where it takes the place of the component's
+/// own, at the nearest tau that it has and with all else as it is. The families of `options` are not used.
+[[nodiscard]] std::vector<FamilyInfo> choose_families(const MeasuredTable& table, const RefinedFitOptions& options,
+                                                      const RefinedFit& from,
+                                                      const std::vector<FamilyInfo>& candidates);
 
 }  // namespace sklar::brdf

@@ -57,6 +57,12 @@ std::string_view to_text(RefinedObjective objective) {
   return kNames[static_cast<std::size_t>(objective)];
 }
 
+LossWeights final_weights(RefinedObjective objective) {
+  LossWeights weights = weights_of(objective);
+  weights.softness = kSoftness.back();
+  return weights;
+}
+
 StagedSearch search_in_stages(const StagedProblem& problem, RefinedObjective objective, int evaluations,
                               const Progress& progress, std::vector<double>& x) {
   StagedSearch result;

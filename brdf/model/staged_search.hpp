@@ -15,6 +15,9 @@ namespace sklar::brdf {
 enum class RefinedObjective { balanced, log1p, log_relative, cube_root, likelihood, image };
 [[nodiscard]] std::string_view to_text(RefinedObjective objective);
 
+/// Of its last stage.
+[[nodiscard]] LossWeights final_weights(RefinedObjective objective);
+
 /// An objective as a function of all coefficients.
 struct StagedProblem {
   /// Returns the value and sets the gradient.
