@@ -13,10 +13,7 @@ namespace sklar::brdf {
 /// One model of the front.
 struct AnisotropicPoint {
   AnisotropicFit fit = {};
-  std::size_t bytes = 0;
-  double log1p_mae = 0, logrel_mae = 0;  ///< CellErrors, mean over channels
-  double eval_ns = 0;                    ///< evaluation_ns
-  double fit_s = 0;
+  ModelFigures figures = {};
 };
 
 /// Structures from 0.4 to 3 KB at 12 bits a coefficient, each larger and more exact than the one before.

@@ -1,30 +1,10 @@
 #include "brdf/study/compare.hpp"
 
-#include <chrono>
-#include <cmath>
-#include <numbers>
-
-#include "copula/random.hpp"
+#include "brdf/study/evaluation_time.hpp"
 #include "copula/study/timing.hpp"
 
 namespace sklar::brdf {
-
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-Directions uniform_hemisphere(Rng& rng, Eigen::Index count) {
-  Directions w(count, 3);
-  for (Eigen::Index row = 0; row < count; ++row) {
-    const double z = uniform(rng), phi = 2 * std::numbers::pi * uniform(rng), radius = std::sqrt(1 - z * z);
-    w.row(row) << radius * std::cos(phi), radius * std::sin(phi), z;
-  }
-  return w;
-}
 
 BrdfPtr fit_family(CompareRow& row, const MeasuredTable& table, const FamilyInfo& family,
                    const FamilyFitOptions& options) {
@@ -44,9 +24,9 @@ BrdfPtr fit_family(CompareRow& row, const MeasuredTable& table, const FamilyInfo
 // Everything but the sphere, which all models share.
 View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo& family,
                   const FamilyFitOptions& options) {
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   const BrdfPtr brdf = fit_family(row, table, family, options);
-  row.fit_s = seconds_since(start);
+  row.fit_s = stopwatch.seconds();
   row.bytes = brdf->bytes();
   row.eval_ns = evaluation_ns(*brdf);
   View result = view(family.title, *brdf, table);
@@ -59,40 +39,7 @@ View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo&
   return result;
 }
 
-constexpr Eigen::Index kBatch = 4096;
-
-struct DirectionPairs {
-  DirectionPairs() : DirectionPairs(Rng(1)) {}
-  explicit DirectionPairs(Rng rng) : wo(uniform_hemisphere(rng, kBatch)), wi(uniform_hemisphere(rng, kBatch)) {}
-
-  Directions wo, wi;
-};
-
-/// @param batch gives a sum of its values, NaN where it failed.
-template <class Batch>
-double ns_of_one(const Batch& batch) {
-  double sum = 0;
-  const double seconds = seconds_per_call([&] { sum = batch(); });
-  return std::isnan(sum) ? std::numeric_limits<double>::quiet_NaN() : seconds / kBatch * 1e9;
-}
-
 }  // namespace
-
-double evaluation_ns(const Brdf& brdf) {
-  const DirectionPairs pairs;
-  return ns_of_one([&] { return brdf.eval(pairs.wo, pairs.wi).sum(); });
-}
-
-double single_evaluation_ns(const Brdf& brdf) {
-  const DirectionPairs pairs;
-  return ns_of_one([&] {
-    Rgb sum = Rgb::Zero();
-    for (Eigen::Index i = 0; i < pairs.wo.rows(); ++i) {
-      sum += brdf.eval(Vec3(pairs.wo.row(i).matrix()), Vec3(pairs.wi.row(i).matrix()));
-    }
-    return sum.sum();
-  });
-}
 
 Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::span<const FamilyInfo* const> families,
                             const FamilyFitOptions& options, const std::filesystem::path& folder,

@@ -49,10 +49,4 @@ struct Comparison {
                                           const std::filesystem::path& folder,
                                           const std::function<void(const std::string&)>& progress = {});
 
-/// Nanoseconds of processor time a RGB value in batches of 4096 seeded random direction pairs; see seconds_per_call.
-[[nodiscard]] double evaluation_ns(const Brdf& brdf);
-
-/// The same of the same pairs one at a time.
-[[nodiscard]] double single_evaluation_ns(const Brdf& brdf);
-
 }  // namespace sklar::brdf

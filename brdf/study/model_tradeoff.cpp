@@ -1,13 +1,12 @@
 #include "brdf/study/model_tradeoff.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <stdexcept>
 
 #include "brdf/model/paper_fit.hpp"
-#include "brdf/study/compare.hpp"
+#include "brdf/study/evaluation_time.hpp"
 #include "brdf/study/metrics.hpp"
+#include "copula/study/timing.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -15,7 +14,7 @@ namespace {
 /// Fills the row with the figures of what fit() returns, or with why it has none.
 template <class Fit>
 void measure(ModelTradeoffRow& row, const MeasuredTable& table, const Fit& fit) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   BrdfPtr brdf;
   try {
     brdf = fit();
@@ -23,7 +22,7 @@ void measure(ModelTradeoffRow& row, const MeasuredTable& table, const Fit& fit) 
     row.error = error.what();
     return;
   }
-  row.fit_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  row.fit_s = stopwatch.seconds();
   row.bytes = brdf->bytes();
   row.batch_ns = evaluation_ns(*brdf);
   row.single_ns = single_evaluation_ns(*brdf);

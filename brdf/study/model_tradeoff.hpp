@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "brdf/study/budget.hpp"
+#include "brdf/study/refined_budget.hpp"
 
 namespace sklar::brdf {
 

@@ -1,102 +1,68 @@
-#include "brdf/study/budget.hpp"
+#include "brdf/study/refined_budget.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <array>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
-#include "brdf/study/compare.hpp"
-#include "brdf/study/metrics.hpp"
-#include "copula/error.hpp"
+#include "copula/study/timing.hpp"
 #include "families/registry.hpp"
 
 namespace sklar::brdf {
 namespace {
 
-void require_positive(const char* name, double value) {
-  if (!(value > 0)) {
-    throw std::invalid_argument("choose_model: " + std::string(name) + " is " + sklar::to_text(value) +
-                                ", it must be positive");
-  }
-}
-
 /// The models of one fit, one a precision.
-std::vector<FrontPoint> fit_points(const MeasuredTable& table, const RefinedFitOptions& options,
-                                   const std::vector<int>& all_bits) {
-  const auto start = std::chrono::steady_clock::now();
-  FrontPoint point{.fit = fit_refined(table, options), .family = options.families.front().name};
-  point.fit_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  point.eval_ns = evaluation_ns(*point.fit.brdf);
+std::vector<FrontPoint> points_of(const MeasuredTable& table, const RefinedFit& fit, const std::string& family,
+                                  double fit_s, const std::vector<int>& all_bits) {
   std::vector<FrontPoint> points;
   for (const int bits : all_bits) {
-    const RefinedBrdf& fitted = *point.fit.brdf;
-    FrontPoint& next = points.emplace_back(point);
-    next.bits = bits;
-    next.fit.brdf = std::make_shared<RefinedBrdf>(
-        fitted.structure(), fitted.families(),
-        pack(fitted.layout(), fitted.structure().components, bits, point.fit.coefficients));
-    const CellErrors errors = cell_errors(table, predict(*next.fit.brdf, table));
-    next.bytes = next.fit.brdf->bytes();
-    next.log1p_mae = errors.log1p_mae.mean();
-    next.logrel_mae = errors.logrel_mae.mean();
+    const RefinedBrdf& fitted = *fit.brdf;
+    FrontPoint& point = points.emplace_back(FrontPoint{.fit = fit, .family = family, .bits = bits});
+    point.fit.brdf =
+        std::make_shared<RefinedBrdf>(fitted.structure(), fitted.families(),
+                                      pack(fitted.layout(), fitted.structure().components, bits, fit.coefficients));
+    point.figures = figures_of(*point.fit.brdf, cell_errors(table, predict(*point.fit.brdf, table)));
+    point.figures.fit_s = fit_s;
   }
   return points;
 }
 
-std::string figures(const FrontPoint& point) {
-  char text[128];
-  std::snprintf(text, sizeof text, "%zu bytes, log1p_mae %.5f, %.1f ns", point.bytes, point.log1p_mae, point.eval_ns);
-  return text;
+bool same_names(const std::vector<FamilyInfo>& a, const std::vector<FamilyInfo>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const FamilyInfo& x, const FamilyInfo& y) { return x.name == y.name; });
 }
 
 }  // namespace
 
 const std::vector<RefinedStructure>& structure_ladder() {
-  static const std::vector<RefinedStructure> kLadder = {{.components = 2,
-                                                         .half = 12,
-                                                         .difference = 8,
-                                                         .colour_half = 4,
-                                                         .colour_difference = 4,
-                                                         .azimuth = 3,
-                                                         .azimuth_difference = 5},
-                                                        {.components = 4,
-                                                         .half = 12,
-                                                         .difference = 8,
-                                                         .colour_half = 4,
-                                                         .colour_difference = 4,
-                                                         .azimuth = 3,
-                                                         .azimuth_difference = 5},
-                                                        {.components = 5,
-                                                         .half = 16,
-                                                         .difference = 11,
-                                                         .colour_half = 4,
-                                                         .colour_difference = 6,
-                                                         .azimuth = 4,
-                                                         .azimuth_difference = 6},
-                                                        {.components = 6,
-                                                         .half = 24,
-                                                         .difference = 14,
-                                                         .colour_half = 4,
-                                                         .colour_difference = 6,
-                                                         .azimuth = 4,
-                                                         .azimuth_difference = 8},
-                                                        {.components = 7,
-                                                         .half = 32,
-                                                         .difference = 18,
-                                                         .colour_half = 5,
-                                                         .colour_difference = 6,
-                                                         .azimuth = 4,
-                                                         .azimuth_difference = 10},
-                                                        {.components = 8,
-                                                         .half = 48,
-                                                         .difference = 24,
-                                                         .colour_half = 6,
-                                                         .colour_difference = 8,
-                                                         .azimuth = 4,
-                                                         .azimuth_difference = 12}};
+  const auto rung = [](int components, int half, int difference, std::array<int, 2> colour,
+                       std::array<int, 2> azimuth) {
+    return RefinedStructure{.components = components,
+                            .half = half,
+                            .difference = difference,
+                            .colour_half = colour[0],
+                            .colour_difference = colour[1],
+                            .azimuth = azimuth[0],
+                            .azimuth_difference = azimuth[1]};
+  };
+  static const std::vector<RefinedStructure> kLadder = {
+      rung(2, 12, 8, {4, 4}, {3, 5}),  rung(4, 12, 8, {4, 4}, {3, 5}),   rung(5, 16, 11, {4, 6}, {4, 6}),
+      rung(6, 24, 14, {4, 6}, {4, 8}), rung(7, 32, 18, {5, 6}, {4, 10}), rung(8, 48, 24, {6, 8}, {4, 12})};
   return kLadder;
+}
+
+BudgetSearch usual_search() {
+  BudgetSearch search{.families = {families::find("independence"), families::find("frank")}};
+  search.substitutes = {search.families.front()};
+  for (const FamilyInfo& family : families::all()) {
+    if (family.parameters.size() != 1 || !family.theta_from_tau) continue;
+    for (const char* rotation : {"", "@90", "@180", "@270"}) {
+      search.substitutes.push_back(families::find(family.name + rotation));
+    }
+  }
+  return search;
 }
 
 std::size_t stored_bytes(const RefinedStructure& structure, int bits, bool coupled) {
@@ -107,11 +73,10 @@ std::size_t stored_bytes(const RefinedStructure& structure, int bits, bool coupl
 
 RefinedStructure largest_structure(double max_bytes, int bits) {
   const std::vector<RefinedStructure>& ladder = structure_ladder();
-  for (auto structure = ladder.rbegin(); structure != ladder.rend(); ++structure) {
-    if (static_cast<double>(stored_bytes(*structure, bits, true)) <= max_bytes) return *structure;
-  }
-  throw std::runtime_error("no model has at most " + sklar::to_text(max_bytes) + " bytes; the smallest has " +
-                           std::to_string(stored_bytes(ladder.front(), bits, true)));
+  require_bytes({.max_bytes = max_bytes}, stored_bytes(ladder.front(), bits, true));
+  return *std::find_if(ladder.rbegin(), ladder.rend(), [&](const RefinedStructure& structure) {
+    return static_cast<double>(stored_bytes(structure, bits, true)) <= max_bytes;
+  });
 }
 
 namespace {
@@ -122,28 +87,38 @@ class Searcher {
   Searcher(const MeasuredTable& table, const Budget& budget, const BudgetSearch& search, RefinedFitOptions options,
            const std::function<void(const std::string&)>& progress)
       : table_(table), budget_(budget), search_(search), options_(std::move(options)), progress_(progress) {
-    if (search_.families.empty()) search_.families = {families::find("independence"), families::find("frank")};
+    require_bytes(budget, smallest(structure_ladder().front()));
     for (const RefinedStructure& structure : structure_ladder()) {
       if (static_cast<double>(smallest(structure)) <= budget.max_bytes) structures_.push_back(structure);
-    }
-    if (structures_.empty()) {
-      throw std::runtime_error("no model has at most " + sklar::to_text(budget.max_bytes) +
-                               " bytes; the smallest has " + std::to_string(smallest(structure_ladder().front())));
     }
   }
 
   /// Returns whether a model of the structure meets the budget.
   bool fit(const RefinedStructure& structure) {
     options_.structure = structure;
+    const Stopwatch stopwatch;
+    RefinedFit last;
     bool found = false;
-    for (const FamilyInfo& family : search_.families) {
-      options_.families = {family};
-      if (progress_) progress_(std::to_string(smallest(structure)) + " bytes and more, " + family.name);
-      for (FrontPoint& point : fit_points(table_, options_, search_.bits)) {
-        found = found || meets(point);
+    const auto keep = [&](const std::string& family, double since) {
+      for (FrontPoint& point : points_of(table_, last, family, stopwatch.seconds() - since, search_.bits)) {
+        found = found || meets(point.figures, budget_);
         points_.push_back(std::move(point));
       }
+    };
+    for (const FamilyInfo& family : search_.families) {
+      options_.families = {family};
+      say(structure, family.name);
+      const double since = stopwatch.seconds();
+      last = fit_refined(table_, options_);
+      keep(family.name, since);
     }
+    if (search_.substitutes.empty()) return found;
+    say(structure, "a family for each component");
+    const double since = stopwatch.seconds();
+    options_.families = choose_families(table_, options_, last, search_.substitutes);
+    if (same_names(options_.families, last.brdf->families())) return found;
+    last = refit_refined(table_, options_, last);
+    keep("mixed", since);
     return found;
   }
 
@@ -153,18 +128,18 @@ class Searcher {
   template <class Less>
   [[nodiscard]] BudgetChoice choice(const Less& less) {
     std::sort(points_.begin(), points_.end(), [](const FrontPoint& a, const FrontPoint& b) {
-      return a.bytes != b.bytes ? a.bytes < b.bytes : a.log1p_mae < b.log1p_mae;
+      return std::tie(a.figures.bytes, a.figures.log1p_mae) < std::tie(b.figures.bytes, b.figures.log1p_mae);
     });
     const FrontPoint* best = nullptr;
     for (const FrontPoint& point : points_) {
-      if (meets(point) && (best == nullptr || less(point, *best))) best = &point;
+      if (meets(point.figures, budget_) && (best == nullptr || less(point.figures, best->figures))) best = &point;
     }
-    if (best == nullptr) throw std::runtime_error("no model meets the budget; the most exact one has " + most_exact());
+    if (best == nullptr) throw std::runtime_error(missed_budget(most_exact()));
     BudgetChoice result{};
     double least = std::numeric_limits<double>::infinity();
     for (const FrontPoint& point : points_) {
-      if (&point != best && !(point.log1p_mae < least)) continue;
-      least = std::min(least, point.log1p_mae);
+      if (&point != best && !(point.figures.log1p_mae < least)) continue;
+      least = std::min(least, point.figures.log1p_mae);
       if (&point == best) result.chosen = result.front.size();
       result.front.push_back(point);
     }
@@ -172,19 +147,20 @@ class Searcher {
   }
 
  private:
+  void say(const RefinedStructure& structure, const std::string& what) const {
+    if (progress_) progress_(std::to_string(smallest(structure)) + " bytes and more, " + what);
+  }
+
   [[nodiscard]] std::size_t smallest(const RefinedStructure& structure) const {
     const bool coupled = std::all_of(search_.families.begin(), search_.families.end(),
                                      [](const FamilyInfo& family) { return !family.parameters.empty(); });
     return stored_bytes(structure, *std::min_element(search_.bits.begin(), search_.bits.end()), coupled);
   }
-  [[nodiscard]] bool meets(const FrontPoint& point) const {
-    return static_cast<double>(point.bytes) <= budget_.max_bytes && point.eval_ns <= budget_.max_ns &&
-           (budget_.max_error == 0 || point.log1p_mae <= budget_.max_error);
-  }
-  [[nodiscard]] std::string most_exact() const {
-    return figures(*std::min_element(points_.begin(), points_.end(), [](const FrontPoint& a, const FrontPoint& b) {
-      return a.log1p_mae < b.log1p_mae;
-    }));
+  [[nodiscard]] ModelFigures most_exact() const {
+    const auto better = [](const FrontPoint& a, const FrontPoint& b) {
+      return a.figures.log1p_mae < b.figures.log1p_mae;
+    };
+    return std::min_element(points_.begin(), points_.end(), better)->figures;
   }
 
   const MeasuredTable& table_;
@@ -200,23 +176,22 @@ class Searcher {
 
 BudgetChoice choose_model(const MeasuredTable& table, const Budget& budget, const BudgetSearch& search,
                           RefinedFitOptions options, const std::function<void(const std::string&)>& progress) {
-  require_positive("max_bytes", budget.max_bytes);
-  require_positive("max_ns", budget.max_ns);
-  if (budget.max_error != 0) require_positive("max_error", budget.max_error);
+  require_budget(budget, "choose_model");
   if (search.bits.empty()) throw std::invalid_argument("choose_model: no bits to try");
+  if (search.families.empty()) throw std::invalid_argument("choose_model: no families to try");
   Searcher searcher(table, budget, search, std::move(options), progress);
   const std::vector<RefinedStructure>& structures = searcher.structures();
   if (budget.max_error > 0) {
     for (const RefinedStructure& structure : structures) {
       if (searcher.fit(structure)) break;
     }
-    return searcher.choice([](const FrontPoint& a, const FrontPoint& b) { return a.bytes < b.bytes; });
+    return searcher.choice([](const ModelFigures& a, const ModelFigures& b) { return a.bytes < b.bytes; });
   }
   bool found = false;
   for (std::size_t tried = 0; tried < structures.size() && !(found && tried >= 2); ++tried) {
     found = searcher.fit(structures[structures.size() - 1 - tried]) || found;
   }
-  return searcher.choice([](const FrontPoint& a, const FrontPoint& b) { return a.log1p_mae < b.log1p_mae; });
+  return searcher.choice([](const ModelFigures& a, const ModelFigures& b) { return a.log1p_mae < b.log1p_mae; });
 }
 
 BudgetChoice fit_largest(const MeasuredTable& table, double max_bytes, const BudgetSearch& search,
@@ -226,7 +201,9 @@ BudgetChoice fit_largest(const MeasuredTable& table, double max_bytes, const Bud
   options.families = {family};
   options.structure = largest_structure(max_bytes, bits);
   if (progress) progress(family.name);
-  return {.front = fit_points(table, options, {bits}), .chosen = 0};
+  const Stopwatch stopwatch;
+  const RefinedFit fit = fit_refined(table, options);
+  return {.front = points_of(table, fit, family.name, stopwatch.seconds(), {bits}), .chosen = 0};
 }
 
 std::string to_markdown(const BudgetChoice& choice) {
@@ -235,11 +212,12 @@ std::string to_markdown(const BudgetChoice& choice) {
       "| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n";
   for (std::size_t i = 0; i < choice.front.size(); ++i) {
     const FrontPoint& point = choice.front[i];
+    const ModelFigures& figures = point.figures;
     const RefinedStructure& structure = point.fit.brdf->structure();
     char row[200];
     std::snprintf(row, sizeof row, "| %d | %d x %d | %s | %d | %zu | %.5f | %.4f | %.1f | %.1f | %s |\n",
                   structure.components, structure.half, structure.difference, point.family.c_str(), point.bits,
-                  point.bytes, point.log1p_mae, point.logrel_mae, point.eval_ns, point.fit_s,
+                  figures.bytes, figures.log1p_mae, figures.logrel_mae, figures.eval_ns, figures.fit_s,
                   i == choice.chosen ? "chosen" : "");
     text += row;
   }

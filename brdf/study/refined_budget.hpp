@@ -2,36 +2,30 @@
 /// The cheapest refined model that meets a budget.
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "brdf/model/refined_fit.hpp"
+#include "brdf/study/budget.hpp"
 
 namespace sklar::brdf {
 
-/// What a model may cost and must reach.
-struct Budget {
-  double max_error = 0;                                        ///< mean log1p_mae over channels; 0 asks for nothing
-  double max_bytes = std::numeric_limits<double>::infinity();  ///< of storage
-  double max_ns = std::numeric_limits<double>::infinity();     ///< an RGB value in a batch, one thread
-};
-
 /// What is tried of each structure.
 struct BudgetSearch {
-  std::vector<FamilyInfo> families = {};    ///< each for all components; none is independence and Frank
-  std::vector<int> bits = {8, 10, 12, 14};  ///< of a stored coefficient
+  std::vector<FamilyInfo> families = {};     ///< each for all components
+  std::vector<FamilyInfo> substitutes = {};  ///< for single components of the fit with the last of them
+  std::vector<int> bits = {8, 10, 12, 14};   ///< of a stored coefficient
 };
+
+/// Independence and Frank; every registered family that can couple, in every rotation, as a substitute.
+[[nodiscard]] BudgetSearch usual_search();
 
 /// One model of the front.
 struct FrontPoint {
   RefinedFit fit = {};
-  std::string family = {};
+  std::string family = {};  ///< of all components, or "mixed"
   int bits = 0;
-  std::size_t bytes = 0;
-  double log1p_mae = 0, logrel_mae = 0;  ///< CellErrors, mean over channels
-  double eval_ns = 0;                    ///< evaluation_ns
-  double fit_s = 0;
+  ModelFigures figures = {};
 };
 
 /// Structures from 0.5 to 16 KB at kLadderBits, each larger and more exact than the one before.
@@ -52,12 +46,13 @@ struct BudgetChoice {
 
 /// With max_error, goes up the ladder and takes the smallest model of the first structure that reaches it; else the
 /// most exact one of the two largest structures that fit, further down where these are too slow. A structure is fitted
-/// once a family; its precisions share the fit. The structure, the families and the bits of `options` are not used.
+/// once a family, and once more from there where choose_families finds better ones; its precisions share the fit. The
+/// structure, the families and the bits of `options` are not used.
 /// @param progress called with what is being done.
 /// @throws std::invalid_argument for a budget that is not positive; std::runtime_error naming the best model where none
 /// meets it.
 [[nodiscard]] BudgetChoice choose_model(const MeasuredTable& table, const Budget& budget,
-                                        const BudgetSearch& search = {}, RefinedFitOptions options = {},
+                                        const BudgetSearch& search = usual_search(), RefinedFitOptions options = {},
                                         const std::function<void(const std::string&)>& progress = {});
 
 /// Fits the largest structure of the ladder within max_bytes, with the first of each list of `search`.

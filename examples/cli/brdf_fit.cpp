@@ -79,14 +79,8 @@ Json json_point(const Point& point) {
   return {{"objective", point.fit.objective},
           {"evaluations", point.fit.evaluations},
           {"status", point.fit.converged ? "converged" : "evaluations spent"},
-          {"eval_ns", point.eval_ns},
-          {"fit_s", point.fit_s}};
-}
-
-/// The budget of a fit where nothing was asked for.
-brdf::Budget usual(brdf::Budget budget) {
-  if (std::isinf(budget.max_bytes) && budget.max_error == 0) budget.max_bytes = kUsualBytes;
-  return budget;
+          {"eval_ns", point.figures.eval_ns},
+          {"fit_s", point.figures.fit_s}};
 }
 
 void run_paper(const Options& options, const brdf::MeasuredTable& table, bool json) {
@@ -103,14 +97,11 @@ void run_paper(const Options& options, const brdf::MeasuredTable& table, bool js
 brdf::BudgetChoice choose(const Options& options, const brdf::MeasuredTable& table) {
   const StepLine steps;
   const auto progress = [&](const std::string& what) { steps.show(table.name + ": " + what); };
-  brdf::BudgetSearch search;
-  if (!options.family.empty()) search.families = {families::resolve(options.family)};
+  brdf::BudgetSearch search = brdf::usual_search();
+  if (!options.family.empty()) search = {.families = {families::resolve(options.family)}};
   if (options.fit.bits) search.bits = {*options.fit.bits};
   const brdf::Budget& budget = options.fit.budget;
-  if (!std::isinf(budget.max_bytes) || !std::isinf(budget.max_ns) || budget.max_error > 0) {
-    return choose_model(table, budget, search, options.fit.refined, progress);
-  }
-  if (search.families.empty()) search.families = {families::find("independence")};
+  if (budget.limits()) return choose_model(table, budget, search, options.fit.refined, progress);
   search.bits = {options.fit.bits.value_or(brdf::kLadderBits)};
   return fit_largest(table, kUsualBytes, search, options.fit.refined, progress);
 }
@@ -155,10 +146,11 @@ void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table
                                           .measure = options.fit.measure,
                                           .bits = options.fit.bits.value_or(brdf::kLadderBits)};
   fit_options.evaluations = options.fit.evaluations.value_or(fit_options.evaluations);
+  brdf::Budget budget = options.fit.budget;
+  if (!budget.limits()) budget.max_bytes = kUsualBytes;
   const StepLine steps;
-  const brdf::AnisotropicChoice choice =
-      brdf::choose_anisotropic(table, usual(options.fit.budget), fit_options,
-                               [&](const std::string& what) { steps.show(table.name + ": " + what); });
+  const brdf::AnisotropicChoice choice = brdf::choose_anisotropic(
+      table, budget, fit_options, [&](const std::string& what) { steps.show(table.name + ": " + what); });
   const brdf::AnisotropicPoint& point = choice.front[choice.chosen];
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
   write_file(options.output, to_json(stored));
@@ -190,7 +182,8 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
   add_material(*command, options->material);
   command->add_option(
       "--family", options->family,
-      std::string(kFamilyHelp) + "; omitted: frank (paper), independence (refined; with a budget frank, too)");
+      std::string(kFamilyHelp) +
+          "; omitted: frank (paper), independence (refined); with a budget frank, too, and one for each component");
   command->add_option("-o", options->output, "MODEL.json")->required();
   add_fit_options(*command, options->fit, "refined");
   command->add_option("--max-error", options->fit.budget.max_error,

@@ -7,7 +7,7 @@
 
 #include "brdf/model/paper_fit.hpp"
 #include "brdf/model/refined_fit.hpp"
-#include "brdf/study/budget.hpp"
+#include "brdf/study/refined_budget.hpp"
 
 namespace sklar::cli {
 

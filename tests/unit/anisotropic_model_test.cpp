@@ -14,8 +14,10 @@
 #include "brdf/model/refined_fit.hpp"
 #include "brdf/study/anisotropic_budget.hpp"
 #include "brdf/study/metrics.hpp"
+#include "brdf/study/refined_budget.hpp"
 #include "copula/error.hpp"
 #include "copula/random.hpp"
+#include "tests/support/gradient_check.hpp"
 #include "tests/support/instruction_sets.hpp"
 
 namespace sklar::brdf {
@@ -119,30 +121,10 @@ TEST(AnisotropicMetric, GradientIsThatOfTheMatrix) {
 }
 
 TEST(AnisotropicProblem, GradientIsThatOfTheObjective) {
-  constexpr double kStep = 2e-3, kTolerance = 0.01;  // relative to the largest; the objective is in single precision
   for (const bool tilted : {false, true}) {
     const AnisotropicProblem problem(small(tilted),
                                      anisotropic_cells(brass(), small(tilted), CellMeasure::per_cell, 24));
-    std::vector<double> x = problem.start();
-    Rng rng(3);
-    for (double& value : x) value += 0.3 * (uniform(rng) - 0.5);
-    for (const LossWeights& weights : {LossWeights{.log1p = 4, .log_relative = 1, .softness = 0.1F},
-                                       LossWeights{.cube_root = 1}, LossWeights{.likelihood = 1, .image = 1}}) {
-      std::vector<double> gradient, unused;
-      (void)problem.evaluate(weights, x, gradient);
-      double largest = 0;
-      for (const double slope : gradient) largest = std::max(largest, std::abs(slope));
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        const bool metric = x.size() - i <= 5;
-        if (!metric && i % 7 != 0) continue;
-        std::vector<double> up = x, down = x;
-        up[i] += kStep;
-        down[i] -= kStep;
-        const double slope =
-            (problem.evaluate(weights, up, unused) - problem.evaluate(weights, down, unused)) / (2 * kStep);
-        EXPECT_NEAR(gradient[i], slope, kTolerance * largest) << "coefficient " << i << " of " << x.size();
-      }
-    }
+    test::expect_gradient_of_objective(problem, 7, 5, tilted ? "tilted" : "upright");  // the metric comes last
   }
 }
 
@@ -336,10 +318,10 @@ TEST(AnisotropicBudget, TakesTheSmallestModelThatIsGoodEnough) {
   const AnisotropicFitOptions options{.evaluations = 80};
   const AnisotropicChoice choice = choose_anisotropic(brass(), {.max_error = 0.01}, options);
   EXPECT_EQ(choice.chosen, choice.front.size() - 1);
-  EXPECT_LE(choice.front[choice.chosen].log1p_mae, 0.01);
+  EXPECT_LE(choice.front[choice.chosen].figures.log1p_mae, 0.01);
   EXPECT_NE(to_markdown(choice).find("chosen"), std::string::npos);
   const AnisotropicChoice bytes = choose_anisotropic(brass(), {.max_bytes = 600}, options);
-  EXPECT_LE(bytes.front[bytes.chosen].bytes, 600U);
+  EXPECT_LE(bytes.front[bytes.chosen].figures.bytes, 600U);
   EXPECT_THROW((void)choose_anisotropic(brass(), {.max_error = 1e-9, .max_bytes = 600}, options), std::runtime_error);
   EXPECT_THROW((void)choose_anisotropic(brass(), {.max_bytes = 10}, options), std::runtime_error);
   EXPECT_THROW((void)choose_anisotropic(brass(), {.max_bytes = -1}, options), std::invalid_argument);

@@ -4,6 +4,7 @@
 
 #include "brdf/analytic/lambert.hpp"
 #include "brdf/analytic/synthetic.hpp"
+#include "brdf/study/evaluation_time.hpp"
 #include "brdf/study/results.hpp"
 #include "families/registry.hpp"
 #include "tests/support/temporary_folder.hpp"

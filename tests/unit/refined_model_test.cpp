@@ -5,18 +5,20 @@
 #include <numbers>
 
 #include "brdf/analytic/synthetic.hpp"
+#include "brdf/data/tabulate.hpp"
 #include "brdf/model/model_io.hpp"
 #include "brdf/model/refined_fit.hpp"
 #include "brdf/model/refined_problem.hpp"
 #include "brdf/model/spline.hpp"
 #include "brdf/render/hemisphere.hpp"
 #include "brdf/study/albedo.hpp"
-#include "brdf/study/budget.hpp"
 #include "brdf/study/energy.hpp"
 #include "brdf/study/metrics.hpp"
+#include "brdf/study/refined_budget.hpp"
 #include "copula/error.hpp"
 #include "copula/random.hpp"
 #include "families/registry.hpp"
+#include "tests/support/gradient_check.hpp"
 #include "tests/support/instruction_sets.hpp"
 
 namespace sklar::brdf {
@@ -107,31 +109,11 @@ TEST(Warp, IsReciprocalToTheBitAndInTheUnitCube) {
 }
 
 TEST(RefinedProblem, GradientIsThatOfTheObjective) {
-  constexpr double kStep = 2e-3,
-                   kTolerance = 0.01;  // relative to the largest slope; the objective is in single precision
-  RefinedStructure structure = small();
   for (const char* name : {"independence", "frank", "clayton@180", "gumbel"}) {
     const FamilyInfo& family = families::resolve(name);
-    const RefinedProblem problem(structure, {family, family},
-                                 refined_cells(builtin(), CellMeasure::per_cell, structure.width));
-    std::vector<double> x = problem.start();
-    Rng rng(3);
-    for (double& value : x) value += 0.3 * (uniform(rng) - 0.5);
-    for (const LossWeights& weights : {LossWeights{.log1p = 4, .log_relative = 1, .softness = 0.1F},
-                                       LossWeights{.cube_root = 1}, LossWeights{.likelihood = 1, .image = 1}}) {
-      std::vector<double> gradient, unused;
-      (void)problem.evaluate(weights, x, gradient);
-      double largest = 0;
-      for (const double slope : gradient) largest = std::max(largest, std::abs(slope));
-      for (std::size_t i = 0; i < x.size(); i += 13) {
-        std::vector<double> up = x, down = x;
-        up[i] += kStep;
-        down[i] -= kStep;
-        const double slope =
-            (problem.evaluate(weights, up, unused) - problem.evaluate(weights, down, unused)) / (2 * kStep);
-        EXPECT_NEAR(gradient[i], slope, kTolerance * largest) << name << " coefficient " << i;
-      }
-    }
+    const RefinedProblem problem(small(), {family, family},
+                                 refined_cells(builtin(), CellMeasure::per_cell, small().width));
+    test::expect_gradient_of_objective(problem, 19, 0, name);
   }
 }
 
@@ -186,6 +168,36 @@ TEST(RefinedModel, CouplesByAnyFamilyThatTauDetermines) {
   }
   const std::string bb1 = SKLAR_EXAMPLE_FAMILIES "/bb1.json";
   EXPECT_THROW((void)quick_fit(builtin(), {.families = {families::resolve(bb1)}}), std::invalid_argument);
+}
+
+TEST(RefinedModel, ChoosesTheFamilyOfAComponent) {
+  RefinedStructure structure = small();
+  structure.components = 1;
+  const RefinedFit margins = fit_refined(builtin(), {.structure = structure, .evaluations = 20});
+  constexpr double kTau = 0.4;
+  const auto coupled_by = [&](const char* name) {
+    const FamilyInfo& family = families::find(name);
+    RefinedFit fit = margins;
+    fit.coefficients.insert(fit.coefficients.end(), static_cast<std::size_t>(structure.coupling_difference),
+                            Coupling(family).dependence(kTau));
+    const RefinedLayout layout(structure, {true});
+    fit.brdf = std::make_shared<RefinedBrdf>(structure, std::vector{family}, pack(layout, 1, 16, fit.coefficients));
+    return fit;
+  };
+  const MeasuredTable table = tabulate(*coupled_by("gumbel").brdf, "gumbel", Provenance::synthetic);
+  std::vector<FamilyInfo> candidates;
+  for (const char* name : {"independence", "frank", "clayton", "gumbel", "gumbel@180", "joe"}) {
+    candidates.push_back(families::find(name));
+  }
+  for (const char* name : {"frank", "clayton"}) {
+    EXPECT_EQ(choose_families(table, {.structure = structure}, coupled_by(name), candidates)[0].name, "gumbel") << name;
+  }
+  const RefinedFitOptions options{.structure = structure, .families = {families::find("gumbel")}, .evaluations = 8};
+  const RefinedFit fit = refit_refined(table, options, coupled_by("frank"));
+  EXPECT_LT(log1p_mae(table, *fit.brdf), 0.1 * log1p_mae(table, *coupled_by("frank").brdf));
+  EXPECT_NEAR(fit.brdf->tau(0, 0.5), kTau, 0.02);
+  EXPECT_THROW((void)refit_refined(table, {.structure = small()}, margins), std::invalid_argument);
+  EXPECT_THROW((void)choose_families(table, {.structure = small()}, margins, candidates), std::invalid_argument);
 }
 
 TEST(RefinedModel, FitsDirtyData) {
@@ -276,8 +288,8 @@ TEST(Budget, TakesTheSmallestModelThatIsGoodEnough) {
   const RefinedFitOptions options{.evaluations = 40};
   constexpr double kEnough = 0.02;
   const BudgetChoice choice = choose_model(builtin(), {.max_error = kEnough}, quick_search(), options);
-  EXPECT_LE(choice.front[choice.chosen].log1p_mae, kEnough);
-  for (std::size_t i = 0; i < choice.chosen; ++i) EXPECT_GT(choice.front[i].log1p_mae, kEnough);
+  EXPECT_LE(choice.front[choice.chosen].figures.log1p_mae, kEnough);
+  for (std::size_t i = 0; i < choice.chosen; ++i) EXPECT_GT(choice.front[i].figures.log1p_mae, kEnough);
   EXPECT_NE(to_markdown(choice).find("chosen"), std::string::npos);
 }
 
@@ -285,15 +297,15 @@ TEST(Budget, TakesTheMostExactModelThatIsSmallEnough) {
   constexpr double kMost = 800;
   const BudgetChoice choice =
       choose_model(builtin(), {.max_bytes = kMost}, quick_search(), RefinedFitOptions{.evaluations = 40});
-  EXPECT_LE(static_cast<double>(choice.front[choice.chosen].bytes), kMost);
+  EXPECT_LE(static_cast<double>(choice.front[choice.chosen].figures.bytes), kMost);
   for (std::size_t i = 1; i < choice.front.size(); ++i) {
-    EXPECT_GE(choice.front[i].bytes, choice.front[i - 1].bytes);
-    EXPECT_LT(choice.front[i].log1p_mae, choice.front[i - 1].log1p_mae);
+    EXPECT_GE(choice.front[i].figures.bytes, choice.front[i - 1].figures.bytes);
+    EXPECT_LT(choice.front[i].figures.log1p_mae, choice.front[i - 1].figures.log1p_mae);
   }
   for (const FrontPoint& point : choice.front) {
-    if (static_cast<double>(point.bytes) > kMost) continue;
-    EXPECT_GE(point.log1p_mae, choice.front[choice.chosen].log1p_mae);
-    EXPECT_EQ(point.bytes, point.fit.brdf->bytes());
+    if (static_cast<double>(point.figures.bytes) > kMost) continue;
+    EXPECT_GE(point.figures.log1p_mae, choice.front[choice.chosen].figures.log1p_mae);
+    EXPECT_EQ(point.figures.bytes, point.fit.brdf->bytes());
     EXPECT_EQ(point.bits, point.fit.brdf->coefficients().bits);
   }
 }
@@ -301,7 +313,7 @@ TEST(Budget, TakesTheMostExactModelThatIsSmallEnough) {
 TEST(Budget, FitsOneStructureWithoutASearch) {
   const BudgetChoice choice = fit_largest(builtin(), 600, quick_search(), RefinedFitOptions{.evaluations = 8});
   ASSERT_EQ(choice.front.size(), 1U);
-  EXPECT_EQ(choice.front[0].bytes, stored_bytes(largest_structure(600, 8), 8, false));
+  EXPECT_EQ(choice.front[0].figures.bytes, stored_bytes(largest_structure(600, 8), 8, false));
 }
 
 TEST(Budget, SaysWhatIsTheBestWhereNoModelMeetsIt) {
