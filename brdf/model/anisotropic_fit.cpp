@@ -19,7 +19,7 @@ bool repeats_after_half_turn(const AnisotropicTable& table) {
 AnisotropicFit fit_anisotropic(const AnisotropicTable& table, const AnisotropicFitOptions& options,
                                const Progress& progress) {
   require_structure(options.structure);
-  require_bits(options.bits);
+  require_bits("anisotropic model", options.bits);
   if (options.evaluations < 1) throw std::invalid_argument("fit_anisotropic: evaluations must be at least 1");
   if (options.samples < 1) throw std::invalid_argument("fit_anisotropic: samples must be at least 1");
   AnisotropicCells cells = anisotropic_cells(table, options.structure, options.measure, options.samples);
@@ -36,7 +36,7 @@ AnisotropicFit fit_anisotropic(const AnisotropicTable& table, const AnisotropicF
     const auto first = x.begin() + layout.first(k, AnisotropicPart::shape);
     for (int i = 0; i < layout.count(AnisotropicPart::shape); ++i) first[i] -= log_scale;
   }
-  return {.brdf = std::make_shared<AnisotropicModel>(options.structure, pack(options.structure, options.bits, x)),
+  return {.brdf = std::make_shared<AnisotropicModel>(options.structure, pack(layout, options.bits, x)),
           .start = search.start,
           .objective = search.objective,
           .evaluations = search.evaluations,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "brdf/model/anisotropic_structure.hpp"
+#include "brdf/model/direction_rows.hpp"
 
 namespace sklar::brdf {
 
@@ -16,15 +17,9 @@ struct AnisotropicTables {
   std::vector<float> metric{};  ///< [component][5], the fields of Metric
 };
 
-/// Coordinate k of row i of directions at first[k * stride + i].
-struct AnisotropicRows {
-  const double* first;
-  std::ptrdiff_t stride;
-};
-
 /// f_r of count pairs of unit directions above the horizon, red green blue of row i at out[i], out[stride + i] and
 /// out[2 stride + i]. What a row gives does not depend on the others, nor on which direction is called wo.
-void evaluate_anisotropic(const AnisotropicTables& tables, const AnisotropicRows& wo, const AnisotropicRows& wi,
+void evaluate_anisotropic(const AnisotropicTables& tables, const DirectionRows& wo, const DirectionRows& wi,
                           std::ptrdiff_t count, double* out, std::ptrdiff_t stride);
 
 inline constexpr int kPointBlock = 16;  ///< pairs side by side in AnisotropicPoints
@@ -35,7 +30,7 @@ struct AnisotropicPoints {
   int numbers = 0;  ///< a pair
   std::vector<float> values{};
 };
-[[nodiscard]] AnisotropicPoints anisotropic_points(const AnisotropicStructure& structure, const AnisotropicRows& wo,
-                                                   const AnisotropicRows& wi, std::ptrdiff_t count);
+[[nodiscard]] AnisotropicPoints anisotropic_points(const AnisotropicStructure& structure, const DirectionRows& wo,
+                                                   const DirectionRows& wi, std::ptrdiff_t count);
 
 }  // namespace sklar::brdf

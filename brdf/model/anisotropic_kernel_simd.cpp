@@ -36,7 +36,7 @@ HWY_INLINE F tensor(const float* table, int columns, const Spline& across, const
   return sum;
 }
 
-void evaluate(const AnisotropicTables& t, const AnisotropicRows& wo, const AnisotropicRows& wi, std::ptrdiff_t count,
+void evaluate(const AnisotropicTables& t, const DirectionRows& wo, const DirectionRows& wi, std::ptrdiff_t count,
               double* out, std::ptrdiff_t stride) {
   const PointTag d;
   const AnisotropicStructure& s = t.structure;
@@ -70,8 +70,8 @@ void evaluate(const AnisotropicTables& t, const AnisotropicRows& wo, const Aniso
   }
 }
 
-void find_points(const AnisotropicStructure& s, const AnisotropicRows& wo, const AnisotropicRows& wi,
-                 std::ptrdiff_t count, int shared_count, int colour_count, AnisotropicPoints& points) {
+void find_points(const AnisotropicStructure& s, const DirectionRows& wo, const DirectionRows& wi, std::ptrdiff_t count,
+                 int shared_count, int colour_count, AnisotropicPoints& points) {
   F shared[kMostTerms], colours[kMostTerms];
   const std::ptrdiff_t padded = (count + kPointBlock - 1) / kPointBlock * kPointBlock;
   for (std::ptrdiff_t row = 0; row < padded; row += kPointLanes) {
@@ -98,13 +98,13 @@ HWY_EXPORT(evaluate);
 HWY_EXPORT(find_points);
 }  // namespace
 
-void evaluate_anisotropic(const AnisotropicTables& tables, const AnisotropicRows& wo, const AnisotropicRows& wi,
+void evaluate_anisotropic(const AnisotropicTables& tables, const DirectionRows& wo, const DirectionRows& wi,
                           std::ptrdiff_t count, double* out, std::ptrdiff_t stride) {
   HWY_DYNAMIC_DISPATCH(evaluate)(tables, wo, wi, count, out, stride);
 }
 
-AnisotropicPoints anisotropic_points(const AnisotropicStructure& structure, const AnisotropicRows& wo,
-                                     const AnisotropicRows& wi, std::ptrdiff_t count) {
+AnisotropicPoints anisotropic_points(const AnisotropicStructure& structure, const DirectionRows& wo,
+                                     const DirectionRows& wi, std::ptrdiff_t count) {
   const int shared = shared_terms(structure), colours = colour_terms(structure);
   AnisotropicPoints points{.numbers = 3 + shared + colours};
   const std::ptrdiff_t blocks = (count + kPointBlock - 1) / kPointBlock;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -13,91 +12,12 @@ namespace sklar::brdf {
 namespace {
 
 constexpr double kLargestLog = 80;  // of f_r; e^80 is within single precision
-constexpr int kMetricBits = 16;
-
-int bits_of(AnisotropicPart part, int bits) {
-  return part == AnisotropicPart::metric ? kMetricBits : bits;
-}
-
-/// action(index of a coefficient) for all components.
-template <class Action>
-void for_each(const AnisotropicStructure& structure, AnisotropicPart part, const Action& action) {
-  const AnisotropicLayout layout(structure);
-  for (int k = 0; k < structure.components; ++k) {
-    for (int i = 0; i < layout.count(part); ++i) action(static_cast<std::size_t>(layout.first(k, part) + i));
-  }
-}
-
-std::vector<double> unpack(const AnisotropicStructure& structure, const AnisotropicCoefficients& packed) {
-  std::vector<double> values(packed.levels.size());
-  for (const AnisotropicPart part : kAnisotropicParts) {
-    const auto index = static_cast<std::size_t>(part);
-    const auto lowest = static_cast<double>(packed.lowest[index]), step = static_cast<double>(packed.step[index]);
-    for_each(structure, part, [&](std::size_t i) { values[i] = lowest + packed.levels[i] * step; });
-  }
-  return values;
-}
-
-void require_packed(const AnisotropicStructure& structure, const AnisotropicCoefficients& packed) {
-  const auto refuse = [](const std::string& what) { throw std::invalid_argument("anisotropic model: " + what); };
-  require_bits(packed.bits);
-  const auto size = static_cast<std::size_t>(AnisotropicLayout(structure).size());
-  if (packed.levels.size() != size) {
-    refuse(std::to_string(packed.levels.size()) + " coefficients, expected " + std::to_string(size));
-  }
-  for (const AnisotropicPart part : kAnisotropicParts) {
-    const auto index = static_cast<std::size_t>(part);
-    if (!std::isfinite(packed.lowest[index]) || !std::isfinite(packed.step[index]) || packed.step[index] < 0) {
-      refuse("a range that is not finite");
-    }
-    for_each(structure, part, [&](std::size_t i) {
-      if (packed.levels[i] >> bits_of(part, packed.bits) != 0) {
-        refuse("level " + std::to_string(packed.levels[i]) + " does not fit the bits");
-      }
-    });
-  }
-}
-
 }  // namespace
-
-void require_bits(int bits) {
-  constexpr int kFewest = 6, kMost = 16;
-  if (bits >= kFewest && bits <= kMost) return;
-  throw std::invalid_argument("anisotropic model: bits is " + std::to_string(bits) + ", allowed are 6 to 16");
-}
-
-AnisotropicCoefficients pack(const AnisotropicStructure& structure, int bits, const std::vector<double>& coefficients) {
-  AnisotropicCoefficients packed{.bits = bits};
-  packed.levels.resize(coefficients.size());
-  for (const AnisotropicPart part : kAnisotropicParts) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for_each(structure, part, [&](std::size_t i) {
-      low = std::min(low, coefficients[i]);
-      high = std::max(high, coefficients[i]);
-    });
-    if (!(low <= high)) continue;
-    const auto index = static_cast<std::size_t>(part);
-    const double steps = std::exp2(bits_of(part, bits)) - 1;
-    packed.lowest[index] = static_cast<float>(low);
-    packed.step[index] = static_cast<float>((high - low) / steps);
-    const auto lowest = static_cast<double>(packed.lowest[index]), step = static_cast<double>(packed.step[index]);
-    for_each(structure, part, [&](std::size_t i) {
-      const double level = step > 0 ? std::round((coefficients[i] - lowest) / step) : 0.0;
-      packed.levels[i] = static_cast<std::uint16_t>(std::clamp(level, 0.0, steps));
-    });
-  }
-  return packed;
-}
 
 std::size_t anisotropic_bytes(const AnisotropicStructure& structure, int bits) {
   constexpr std::size_t kStructure = 11 + 1 + 1;  // counts, the flag, the bits
   constexpr std::size_t kRanges = 2 * sizeof(float) * kAnisotropicParts.size();
-  const AnisotropicLayout layout(structure);
-  std::size_t stored = 0;
-  for (const AnisotropicPart part : kAnisotropicParts) {
-    stored += static_cast<std::size_t>(structure.components * layout.count(part) * bits_of(part, bits));
-  }
-  return kStructure + kRanges + (stored + 7) / 8;
+  return kStructure + kRanges + packed_bytes(AnisotropicLayout(structure).runs(bits));
 }
 
 AnisotropicTables anisotropic_tables(const AnisotropicStructure& structure, const std::vector<double>& coefficients) {
@@ -120,10 +40,11 @@ AnisotropicTables anisotropic_tables(const AnisotropicStructure& structure, cons
   return tables;
 }
 
-AnisotropicModel::AnisotropicModel(const AnisotropicStructure& structure, AnisotropicCoefficients coefficients)
+AnisotropicModel::AnisotropicModel(const AnisotropicStructure& structure, PackedCoefficients coefficients)
     : structure_((require_structure(structure), structure)),
-      packed_((require_packed(structure, coefficients), std::move(coefficients))),
-      tables_(anisotropic_tables(structure_, unpack(structure_, packed_))) {
+      packed_((require_packed("anisotropic model", AnisotropicLayout(structure).runs(coefficients.bits), coefficients),
+               std::move(coefficients))),
+      tables_(anisotropic_tables(structure_, unpack(AnisotropicLayout(structure_), packed_))) {
   const double largest = largest_log();
   if (!(largest <= kLargestLog)) {
     throw std::domain_error("anisotropic model: log f_r may reach " + to_text(largest) + ", allowed are at most " +
@@ -140,7 +61,7 @@ AnisotropicModel::AnisotropicModel(const AnisotropicStructure& structure, Anisot
 }
 
 double AnisotropicModel::largest_log() const {
-  const std::vector<double> x = unpack(structure_, packed_);
+  const std::vector<double> x = unpack(AnisotropicLayout(structure_), packed_);
   const AnisotropicLayout layout(structure_);
   double bound = 0;
   for (int k = 0; k < structure_.components; ++k) {
@@ -180,7 +101,7 @@ void AnisotropicModel::eval_batch(const DirectionsRef& wo, const DirectionsRef& 
 }
 
 Metric AnisotropicModel::metric(int component) const {
-  const std::vector<double> x = unpack(structure_, packed_);
+  const std::vector<double> x = unpack(AnisotropicLayout(structure_), packed_);
   const AnisotropicLayout layout(structure_);
   return Metric::from(x.data() + layout.first(component, AnisotropicPart::metric), structure_.tilted);
 }

@@ -9,7 +9,6 @@
 /// Warped::azimuth), masking and shadowing (a function of each direction, of its cosine and azimuth) and what remains
 /// of phi_h. Everything is algebraic in the components of the directions.
 
-#include <cstdint>
 #include <vector>
 
 #include "brdf/brdf.hpp"
@@ -17,20 +16,6 @@
 #include "brdf/model/anisotropic_structure.hpp"
 
 namespace sklar::brdf {
-
-/// Coefficients rounded to one of 2^bits evenly spaced levels, the metric to one of 2^16, with one range a part.
-struct AnisotropicCoefficients {
-  int bits = 12;  ///< 6 to 16
-  std::array<float, kAnisotropicParts.size()> lowest = {}, step = {};
-  std::vector<std::uint16_t> levels{};  ///< in the order of AnisotropicLayout
-};
-
-/// @throws std::invalid_argument unless 6 <= bits <= 16.
-void require_bits(int bits);
-
-/// The nearest levels, between the least and the largest coefficient of each part.
-[[nodiscard]] AnisotropicCoefficients pack(const AnisotropicStructure& structure, int bits,
-                                           const std::vector<double>& coefficients);
 
 /// What AnisotropicModel::bytes says of a model of this structure.
 [[nodiscard]] std::size_t anisotropic_bytes(const AnisotropicStructure& structure, int bits);
@@ -43,7 +28,7 @@ class AnisotropicModel final : public Brdf {
  public:
   /// @throws std::invalid_argument for counts out of range or that do not agree; std::domain_error for coefficients
   /// with which f_r could exceed e^80, and for a metric with a trace above 1e12 or a determinant below 1e-12.
-  AnisotropicModel(const AnisotropicStructure& structure, AnisotropicCoefficients coefficients);
+  AnisotropicModel(const AnisotropicStructure& structure, PackedCoefficients coefficients);
 
   using Brdf::eval;
   [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const override;
@@ -53,7 +38,7 @@ class AnisotropicModel final : public Brdf {
   [[nodiscard]] std::size_t bytes() const override { return anisotropic_bytes(structure_, packed_.bits); }
 
   [[nodiscard]] const AnisotropicStructure& structure() const { return structure_; }
-  [[nodiscard]] const AnisotropicCoefficients& coefficients() const { return packed_; }
+  [[nodiscard]] const PackedCoefficients& coefficients() const { return packed_; }
 
   /// The metric of a component.
   [[nodiscard]] Metric metric(int component) const;
@@ -63,7 +48,7 @@ class AnisotropicModel final : public Brdf {
   [[nodiscard]] double largest_log() const;
 
   AnisotropicStructure structure_;
-  AnisotropicCoefficients packed_;
+  PackedCoefficients packed_;
   AnisotropicTables tables_;
 };
 

@@ -60,6 +60,19 @@ AnisotropicLayout::AnisotropicLayout(const AnisotropicStructure& structure)
   }
 }
 
+std::vector<CoefficientRun> AnisotropicLayout::runs(int bits) const {
+  std::vector<CoefficientRun> result;
+  for (int k = 0; k < components_; ++k) {
+    for (const AnisotropicPart part : kAnisotropicParts) {
+      result.push_back({.part = static_cast<std::size_t>(part),
+                        .first = static_cast<std::size_t>(first(k, part)),
+                        .count = static_cast<std::size_t>(count(part)),
+                        .bits = part == AnisotropicPart::metric ? kMetricBits : bits});
+    }
+  }
+  return result;
+}
+
 namespace {
 
 /// cosh(r), sinh(r) / r and the derivative of the latter by r, over r.

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "brdf/model/packed_coefficients.hpp"
+
 namespace sklar::brdf {
 
 /// How many coefficients of each kind a component has. Harmonics are cos 2 m phi and sin 2 m phi, m = 1 to the number
@@ -26,6 +28,7 @@ struct AnisotropicStructure {
 };
 
 inline constexpr int kMostAnisotropicComponents = 8;
+inline constexpr int kMetricBits = 16;
 
 /// @throws std::invalid_argument naming the field, its value and what is allowed.
 void require_structure(const AnisotropicStructure& structure);
@@ -53,6 +56,7 @@ class AnisotropicLayout {
   explicit AnisotropicLayout(const AnisotropicStructure& structure);
 
   [[nodiscard]] int size() const { return components_ * stride_; }
+  [[nodiscard]] std::vector<CoefficientRun> runs(int bits) const;  ///< the metric with kMetricBits
   [[nodiscard]] int first(int component, AnisotropicPart part) const {
     return component * stride_ + first_[static_cast<std::size_t>(part)];
   }

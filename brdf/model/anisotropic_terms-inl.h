@@ -66,8 +66,7 @@ struct Pairs {
   F wi[3], wo[3], h[3], d[3];
   F square;  ///< |wi + wo|^2
 
-  HWY_INLINE void load_rows(const AnisotropicRows& o, const AnisotropicRows& i, std::ptrdiff_t row,
-                            std::ptrdiff_t last) {
+  HWY_INLINE void load_rows(const DirectionRows& o, const DirectionRows& i, std::ptrdiff_t row, std::ptrdiff_t last) {
     HWY_ALIGN float numbers[13][kPointBlock];
     for (std::ptrdiff_t lane = 0; lane < kPointLanes; ++lane) {
       const std::ptrdiff_t from = std::min(row + lane, last);

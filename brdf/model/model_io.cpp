@@ -108,9 +108,8 @@ std::array<float, 5> ranges_from(const Json& json, const char* name) {
   return result;
 }
 
-template <class Packed>
-Packed packed_from(const Json& json) {
-  Packed packed{
+PackedCoefficients packed_from(const Json& json) {
+  PackedCoefficients packed{
       .bits = json::integer(json, "bits"), .lowest = ranges_from(json, "lowest"), .step = ranges_from(json, "step")};
   for (const double level : json::numbers(json, "levels")) {
     if (!(level >= 0 && level <= 0xFFFF && level == std::floor(level))) {
@@ -122,8 +121,7 @@ Packed packed_from(const Json& json) {
   return packed;
 }
 
-template <class Packed>
-void write_packed(const Packed& packed, Json& json) {
+void write_packed(const PackedCoefficients& packed, Json& json) {
   json["bits"] = packed.bits;
   json["lowest"] = packed.lowest;
   json["step"] = packed.step;
@@ -137,7 +135,7 @@ std::shared_ptr<const RefinedBrdf> refined_from(const Json& json) {
   structure.width = json::number(sizes, "width");
   std::vector<FamilyInfo> families;
   for (const Json& family : json::array(json, "families")) families.push_back(family_from(family));
-  auto packed = packed_from<PackedCoefficients>(json);
+  auto packed = packed_from(json);
   return std::make_shared<RefinedBrdf>(structure, std::move(families), std::move(packed));
 }
 
@@ -159,7 +157,7 @@ std::shared_ptr<const AnisotropicModel> anisotropic_from(const Json& json) {
   const Json& tilted = json::field(sizes, "tilted");
   if (!tilted.is_boolean()) throw std::invalid_argument("field 'tilted' must be true or false");
   structure.tilted = tilted.get<bool>();
-  return std::make_shared<AnisotropicModel>(structure, packed_from<AnisotropicCoefficients>(json));
+  return std::make_shared<AnisotropicModel>(structure, packed_from(json));
 }
 
 void write_anisotropic(const AnisotropicModel& brdf, Json& json) {

@@ -36,8 +36,8 @@ inline constexpr int kBrdfModelVersion = 3;
 /// "method", "measure", "red": [slices], "green", "blue" with slices {"theta": [..], "scale", "theta_h": [masses],
 /// "theta_d", "phi_d"}. Version 2, mode "refined": "structure" with the fields of RefinedStructure, "families" one a
 /// component, "bits", and "lowest", "step" and "levels" of PackedCoefficients. Version 3, mode "anisotropic":
-/// "structure" with the fields of AnisotropicStructure, "bits", "lowest", "step" and "levels" of
-/// AnisotropicCoefficients. A family is a name, or the whole definition of a family given as a formula, so that the
+/// "structure" with the fields of AnisotropicStructure, "bits", "lowest", "step" and "levels"
+/// likewise. A family is a name, or the whole definition of a family given as a formula, so that the
 /// model stands alone.
 [[nodiscard]] std::string to_json(const StoredBrdf& model);
 

@@ -44,51 +44,6 @@ double mixed(const Between& between, const std::function<double(int)>& at) {
 
 }  // namespace
 
-PackedCoefficients pack(const RefinedLayout& layout, int components, int bits,
-                        const std::vector<double>& coefficients) {
-  PackedCoefficients packed{.bits = bits};
-  packed.levels.resize(coefficients.size());
-  for (const RefinedPart part : kRefinedParts) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    const auto for_each = [&](auto&& action) {
-      for (int k = 0; k < components; ++k) {
-        for (int i = 0; i < layout.count(k, part); ++i) action(static_cast<std::size_t>(layout.first(k, part) + i));
-      }
-    };
-    for_each([&](std::size_t i) {
-      low = std::min(low, coefficients[i]);
-      high = std::max(high, coefficients[i]);
-    });
-    if (!(low <= high)) continue;
-    const auto index = static_cast<std::size_t>(part);
-    const double steps = std::exp2(bits) - 1;
-    packed.lowest[index] = static_cast<float>(low);
-    packed.step[index] = static_cast<float>((high - low) / steps);
-    const auto lowest = static_cast<double>(packed.lowest[index]), step = static_cast<double>(packed.step[index]);
-    for_each([&](std::size_t i) {
-      const double level = step > 0 ? std::round((coefficients[i] - lowest) / step) : 0.0;
-      packed.levels[i] = static_cast<std::uint16_t>(std::clamp(level, 0.0, steps));
-    });
-  }
-  return packed;
-}
-
-std::vector<double> unpack(const RefinedLayout& layout, int components, const PackedCoefficients& packed) {
-  std::vector<double> coefficients(packed.levels.size());
-  for (int k = 0; k < components; ++k) {
-    for (const RefinedPart part : kRefinedParts) {
-      const auto index = static_cast<std::size_t>(part);
-      const auto first = static_cast<std::size_t>(layout.first(k, part));
-      for (std::size_t i = first; i < first + static_cast<std::size_t>(layout.count(k, part)); ++i) {
-        const double value = static_cast<double>(packed.lowest[index]) +
-                             static_cast<double>(packed.levels[i]) * static_cast<double>(packed.step[index]);
-        coefficients[i] = static_cast<double>(static_cast<float>(value));
-      }
-    }
-  }
-  return coefficients;
-}
-
 RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyInfo> families,
                          PackedCoefficients coefficients)
     : structure_(structure),
@@ -99,26 +54,12 @@ RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyIn
               .difference = structure.difference,
               .powers_pairs = (structure.azimuth + 1) / 2,
               .width = static_cast<float>(structure.width)} {
-  constexpr int kFewestBits = 6, kMostBits = 16;
-  const auto refuse = [](const std::string& what) { throw std::invalid_argument("refined model: " + what); };
   if (families_.size() != static_cast<std::size_t>(structure.components)) {
-    refuse(std::to_string(families_.size()) + " families for " + std::to_string(structure.components) + " components");
+    throw std::invalid_argument("refined model: " + std::to_string(families_.size()) + " families for " +
+                                std::to_string(structure.components) + " components");
   }
-  if (packed_.bits < kFewestBits || packed_.bits > kMostBits) {
-    refuse("bits is " + std::to_string(packed_.bits) + ", allowed are 6 to 16");
-  }
-  if (packed_.levels.size() != static_cast<std::size_t>(layout_.size())) {
-    refuse(std::to_string(packed_.levels.size()) + " coefficients, expected " + std::to_string(layout_.size()));
-  }
-  for (const std::uint16_t level : packed_.levels) {
-    if (level >> packed_.bits != 0) refuse("level " + std::to_string(level) + " does not fit the bits");
-  }
-  for (std::size_t i = 0; i < kRefinedParts.size(); ++i) {
-    if (!std::isfinite(packed_.lowest[i]) || !std::isfinite(packed_.step[i]) || packed_.step[i] < 0) {
-      refuse("a range that is not finite");
-    }
-  }
-  unpacked_ = unpack(layout_, structure.components, packed_);
+  require_packed("refined model", layout_.runs(packed_.bits), packed_);
+  unpacked_ = unpack(layout_, packed_);
   expand();
   require_bounded();
 }
@@ -134,7 +75,8 @@ void RefinedBrdf::expand() {
   tables_.shape.assign(static_cast<std::size_t>(structure_.half * structure_.difference) * kMost, kAbsent);
   tables_.colour.assign(kColours, 0);
   tables_.powers.assign(static_cast<std::size_t>(even_azimuth()) * kMost * Lattice::difference, 0);
-  if (std::any_of(families_.begin(), families_.end(), [](const auto& family) { return !family.parameters.empty(); })) {
+  const std::vector<bool> copulas = coupled(families_);
+  if (std::find(copulas.begin(), copulas.end(), true) != copulas.end()) {
     tables_.coupling.assign(kMost * Lattice::plane * Lattice::difference, 0);
   }
   for (int k = 0; k < structure_.components; ++k) expand_component(k);
@@ -218,14 +160,14 @@ void RefinedBrdf::eval_batch(const DirectionsRef& wo, const DirectionsRef& wi, E
                    out.outerStride());
 }
 
-std::size_t refined_bytes(std::size_t components, int bits, std::size_t coefficients) {
+std::size_t refined_bytes(const RefinedLayout& layout, int bits) {
   constexpr std::size_t kStructure = 8 + sizeof(float) + 1;  // eight counts, the width, the bits
   constexpr std::size_t kRanges = 2 * sizeof(float) * kRefinedParts.size();
-  return kStructure + kRanges + components + (coefficients * static_cast<std::size_t>(bits) + 7) / 8;
+  return kStructure + kRanges + static_cast<std::size_t>(layout.components()) + packed_bytes(layout.runs(bits));
 }
 
 std::size_t RefinedBrdf::bytes() const {
-  return refined_bytes(families_.size(), packed_.bits, packed_.levels.size());
+  return refined_bytes(layout_, packed_.bits);
 }
 
 std::size_t RefinedBrdf::expanded_bytes() const {

@@ -10,8 +10,6 @@
 /// are linear between the nodes of the Lattice. The cells below the horizon take no part in a fit, so the density is
 /// that of the truncated distribution.
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "brdf/brdf.hpp"
@@ -22,23 +20,8 @@
 
 namespace sklar::brdf {
 
-/// Coefficients rounded to one of 2^bits evenly spaced levels, with one range a part.
-struct PackedCoefficients {
-  int bits = 16;                        ///< 6 to 16
-  std::array<float, 5> lowest = {};     ///< of each RefinedPart
-  std::array<float, 5> step = {};       ///< between levels
-  std::vector<std::uint16_t> levels{};  ///< in the order of RefinedLayout
-};
-
-/// The nearest levels, between the least and the largest coefficient of each part.
-[[nodiscard]] PackedCoefficients pack(const RefinedLayout& layout, int components, int bits,
-                                      const std::vector<double>& coefficients);
-
-/// The coefficients that the levels stand for.
-[[nodiscard]] std::vector<double> unpack(const RefinedLayout& layout, int components, const PackedCoefficients& packed);
-
-/// What RefinedBrdf::bytes says of a model with this many components and coefficients.
-[[nodiscard]] std::size_t refined_bytes(std::size_t components, int bits, std::size_t coefficients);
+/// What RefinedBrdf::bytes says of a model of this layout.
+[[nodiscard]] std::size_t refined_bytes(const RefinedLayout& layout, int bits);
 
 class RefinedBrdf final : public Brdf {
  public:

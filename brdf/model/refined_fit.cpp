@@ -39,7 +39,7 @@ RefinedFit search_from(std::vector<double> x, const RefinedProblem& problem, con
   const StagedSearch search = search_in_stages(staged, options.objective, options.evaluations, progress, x);
   const int components = options.structure.components;
   shift(problem.layout(), components, -log_scale, x);
-  PackedCoefficients packed = pack(problem.layout(), components, options.bits, x);
+  PackedCoefficients packed = pack(problem.layout(), options.bits, x);
   return {.brdf = std::make_shared<RefinedBrdf>(options.structure, families, std::move(packed)),
           .coefficients = x,
           .start = search.start,
@@ -50,6 +50,7 @@ RefinedFit search_from(std::vector<double> x, const RefinedProblem& problem, con
 
 void require_fit_options(const RefinedFitOptions& options) {
   require_structure(options.structure);
+  require_bits("refined model", options.bits);
   if (options.evaluations < 1) throw std::invalid_argument("fit_refined: evaluations must be at least 1");
 }
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <vector>
 
+#include "brdf/model/direction_rows.hpp"
 #include "brdf/model/refined_structure.hpp"
 
 namespace sklar::brdf {
@@ -39,12 +40,6 @@ struct RefinedTables {
   AlignedFloats colour{};    ///< [difference][half][red / green, blue / green][component], not logs
   AlignedFloats powers{};    ///< [difference][power 1, 2, .., an even number][component]
   AlignedFloats coupling{};  ///< [difference][half][azimuth][component] log c; empty without one
-};
-
-/// Rows of directions: coordinate k of row i at first[k * stride + i].
-struct DirectionRows {
-  const double* first;
-  std::ptrdiff_t stride;
 };
 
 /// f_r of count pairs of unit directions, red green blue of row i at out[i], out[stride + i] and out[2 stride + i]; 0

@@ -43,4 +43,17 @@ RefinedLayout::RefinedLayout(const RefinedStructure& structure, const std::vecto
   }
 }
 
+std::vector<CoefficientRun> RefinedLayout::runs(int bits) const {
+  std::vector<CoefficientRun> result;
+  for (int k = 0; k < components(); ++k) {
+    for (const RefinedPart part : kRefinedParts) {
+      result.push_back({.part = static_cast<std::size_t>(part),
+                        .first = static_cast<std::size_t>(first(k, part)),
+                        .count = static_cast<std::size_t>(count(k, part)),
+                        .bits = bits});
+    }
+  }
+  return result;
+}
+
 }  // namespace sklar::brdf

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "brdf/model/packed_coefficients.hpp"
+
 namespace sklar::brdf {
 
 /// How many coefficients of each kind a model has; half, difference and azimuth are the axes of Warped.
@@ -41,6 +43,8 @@ class RefinedLayout {
   RefinedLayout(const RefinedStructure& structure, const std::vector<bool>& coupled);
 
   [[nodiscard]] int size() const { return first_.back(); }
+  [[nodiscard]] int components() const { return static_cast<int>(first_.size() / kRefinedParts.size()); }
+  [[nodiscard]] std::vector<CoefficientRun> runs(int bits) const;
   [[nodiscard]] int first(int component, RefinedPart part) const { return first_[index(component, part)]; }
   [[nodiscard]] int count(int component, RefinedPart part) const {
     return first_[index(component, part) + 1] - first_[index(component, part)];

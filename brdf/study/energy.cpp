@@ -48,14 +48,13 @@ Eigen::ArrayXd shares_of(const RefinedBrdf& model, const Worst& worst) {
 
 std::shared_ptr<const RefinedBrdf> lowered(const RefinedBrdf& model, const Eigen::ArrayXd& log_factor) {
   const RefinedStructure& structure = model.structure();
-  std::vector<double> x = unpack(model.layout(), structure.components, model.coefficients());
+  std::vector<double> x = unpack(model.layout(), model.coefficients());
   for (int k = 0; k < structure.components; ++k) {
     for (int i = 0; i < model.layout().count(k, RefinedPart::shape); ++i) {
       x[static_cast<std::size_t>(model.layout().first(k, RefinedPart::shape) + i)] += log_factor(i / structure.half);
     }
   }
-  return std::make_shared<RefinedBrdf>(structure, model.families(),
-                                       pack(model.layout(), structure.components, model.coefficients().bits, x));
+  return std::make_shared<RefinedBrdf>(structure, model.families(), pack(model.layout(), model.coefficients().bits, x));
 }
 
 }  // namespace

@@ -20,9 +20,8 @@ std::vector<FrontPoint> points_of(const MeasuredTable& table, const RefinedFit& 
   for (const int bits : all_bits) {
     const RefinedBrdf& fitted = *fit.brdf;
     FrontPoint& point = points.emplace_back(FrontPoint{.fit = fit, .family = family, .bits = bits});
-    point.fit.brdf =
-        std::make_shared<RefinedBrdf>(fitted.structure(), fitted.families(),
-                                      pack(fitted.layout(), fitted.structure().components, bits, fit.coefficients));
+    point.fit.brdf = std::make_shared<RefinedBrdf>(fitted.structure(), fitted.families(),
+                                                   pack(fitted.layout(), bits, fit.coefficients));
     point.figures = figures_of(*point.fit.brdf, cell_errors(table, predict(*point.fit.brdf, table)));
     point.figures.fit_s = fit_s;
   }
@@ -68,7 +67,7 @@ BudgetSearch usual_search() {
 std::size_t stored_bytes(const RefinedStructure& structure, int bits, bool coupled) {
   const auto components = static_cast<std::size_t>(structure.components);
   const RefinedLayout layout(structure, std::vector<bool>(components, coupled));
-  return refined_bytes(components, bits, static_cast<std::size_t>(layout.size()));
+  return refined_bytes(layout, bits);
 }
 
 RefinedStructure largest_structure(double max_bytes, int bits) {

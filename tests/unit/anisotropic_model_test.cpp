@@ -306,10 +306,10 @@ TEST(AnisotropicModel, RefusesBadArguments) {
   EXPECT_THROW((void)fit_anisotropic(brass(), {.samples = 0}), std::invalid_argument);
   EXPECT_THROW((void)fit_anisotropic(AnisotropicTable{}), std::invalid_argument);
   EXPECT_THROW((void)AnisotropicModel(small(), {}), std::invalid_argument);
-  AnisotropicCoefficients steep = quick_fit(brass()).brdf->coefficients();
+  PackedCoefficients steep = quick_fit(brass()).brdf->coefficients();
   steep.lowest[0] = 200;
   EXPECT_THROW((void)AnisotropicModel(small(), steep), std::domain_error);
-  AnisotropicCoefficients sharp = quick_fit(brass()).brdf->coefficients();
+  PackedCoefficients sharp = quick_fit(brass()).brdf->coefficients();
   sharp.lowest[static_cast<std::size_t>(AnisotropicPart::metric)] = 40;
   EXPECT_THROW((void)AnisotropicModel(small(), sharp), std::domain_error);
 }

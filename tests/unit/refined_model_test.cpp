@@ -181,7 +181,7 @@ TEST(RefinedModel, ChoosesTheFamilyOfAComponent) {
     fit.coefficients.insert(fit.coefficients.end(), static_cast<std::size_t>(structure.coupling_difference),
                             Coupling(family).dependence(kTau));
     const RefinedLayout layout(structure, {true});
-    fit.brdf = std::make_shared<RefinedBrdf>(structure, std::vector{family}, pack(layout, 1, 16, fit.coefficients));
+    fit.brdf = std::make_shared<RefinedBrdf>(structure, std::vector{family}, pack(layout, 16, fit.coefficients));
     return fit;
   };
   const MeasuredTable table = tabulate(*coupled_by("gumbel").brdf, "gumbel", Provenance::synthetic);
