@@ -52,6 +52,15 @@ std::string read_file(const fs::path& path) {
   return std::move(bytes).str();
 }
 
+void require_writable(const fs::path& path) {
+  if (fs::is_directory(path)) fail(path, std::make_error_code(std::errc::is_a_directory));
+  if (fs::exists(path) && !fs::is_regular_file(path)) return;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int access = ::access(folder.c_str(), W_OK | X_OK);
+  if (access != 0) fail(path, {errno, std::generic_category()});
+  if (!fs::is_directory(folder)) fail(path, std::make_error_code(std::errc::not_a_directory));
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
   std::error_code error;
   const bool present = fs::exists(path, error);

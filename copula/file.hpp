@@ -15,4 +15,7 @@ namespace sklar {
 /// @throws FileError naming the path and the system's reason.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// For before long work: throws what write_file would for a directory, or for a folder that is missing or read-only.
+void require_writable(const std::filesystem::path& path);
+
 }  // namespace sklar

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
+#include "brdf/model/model_binary.hpp"
+#include "brdf/model/structure_fields.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
@@ -75,26 +76,6 @@ void write_paper(const PaperBrdf& brdf, FitMethod method, Json& json) {
     Json& slices = json[kChannels[channel]] = Json::array();
     for (const PaperSlice& slice : brdf.channels()[channel]) slices.push_back(slice_to_json(slice));
   }
-}
-
-// The counts of a structure by name.
-template <class Structure, class Action>
-void for_each_count(Structure& structure, const Action& action) {
-  action("components", structure.components);
-  action("half", structure.half);
-  action("difference", structure.difference);
-  if constexpr (std::is_same_v<std::remove_const_t<Structure>, AnisotropicStructure>) {
-    action("masking", structure.masking);
-    action("masking_harmonics", structure.masking_harmonics);
-    action("half_harmonics", structure.half_harmonics);
-    action("half_harmonics_degree", structure.half_harmonics_degree);
-  } else {
-    action("coupling_difference", structure.coupling_difference);
-  }
-  action("colour_half", structure.colour_half);
-  action("colour_difference", structure.colour_difference);
-  action("azimuth", structure.azimuth);
-  action("azimuth_difference", structure.azimuth_difference);
 }
 
 std::array<float, 5> ranges_from(const Json& json, const char* name) {
@@ -216,7 +197,20 @@ StoredBrdf parse_brdf(std::string_view text, std::string_view source) {
 }
 
 StoredBrdf read_brdf(const std::filesystem::path& path) {
-  return parse_brdf(read_file(path), path.string());
+  const std::string bytes = read_file(path);
+  return bytes.starts_with(kBinaryMagic) ? parse_binary(bytes, path.string()) : parse_brdf(bytes, path.string());
+}
+
+bool is_binary_path(const std::filesystem::path& path) {
+  return path.extension() == ".sklar";
+}
+
+bool is_model_path(const std::filesystem::path& path) {
+  return path.extension() == ".json" || is_binary_path(path);
+}
+
+void write_brdf(const std::filesystem::path& path, const StoredBrdf& model) {
+  write_file(path, is_binary_path(path) ? to_binary(model) : to_json(model));
 }
 
 }  // namespace sklar::brdf

@@ -1,5 +1,5 @@
 #pragma once
-/// A fitted BRDF model as versioned JSON; every number survives the round trip bit for bit.
+/// A fitted BRDF model as a file: versioned JSON or, smaller, binary. Values survive the round trip bit for bit.
 
 #include <filesystem>
 #include <string>
@@ -45,7 +45,14 @@ inline constexpr int kBrdfModelVersion = 3;
 /// format, a newer version, a field missing or of the wrong type, an unknown family, values that the model refuses.
 [[nodiscard]] StoredBrdf parse_brdf(std::string_view json, std::string_view source);
 
-/// parse_brdf of a file. @throws FileError also for a missing file or a directory.
+/// parse_brdf, or parse_binary by its first bytes, of a file. @throws FileError also for a missing file or a directory.
 [[nodiscard]] StoredBrdf read_brdf(const std::filesystem::path& path);
+
+/// to_binary where is_binary_path, else to_json. @throws as to_binary and write_file.
+void write_brdf(const std::filesystem::path& path, const StoredBrdf& model);
+
+/// Whether a path ends in .sklar; in that or in .json.
+[[nodiscard]] bool is_binary_path(const std::filesystem::path& path);
+[[nodiscard]] bool is_model_path(const std::filesystem::path& path);
 
 }  // namespace sklar::brdf

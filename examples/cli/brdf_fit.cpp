@@ -8,6 +8,7 @@
 #include "brdf/study/anisotropic_budget.hpp"
 #include "brdf/study/energy.hpp"
 #include "brdf/study/metrics.hpp"
+#include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/fit_options.hpp"
@@ -88,7 +89,7 @@ void run_paper(const Options& options, const brdf::MeasuredTable& table, bool js
   const brdf::PaperFit fit = brdf::fit_paper(table, family, options.fit.paper, progress_bar("fitting"));
   const brdf::StoredBrdf stored{
       .material = table.name, .provenance = table.provenance, .model = fit.brdf, .method = options.fit.paper.method};
-  write_file(options.output, to_json(stored));
+  brdf::write_brdf(options.output, stored);
   if (!json) return print_fits(fit);
   print_json(stored, errors_of(stored, table), "paper", {{"family", family.name}, {"fits", json_fits(fit)}});
 }
@@ -112,7 +113,7 @@ void run_refined(const Options& options, const brdf::MeasuredTable& table, bool 
   brdf::LimitedBrdf limited{.brdf = point.fit.brdf};
   if (!std::isinf(options.max_albedo)) limited = brdf::limit_albedo(point.fit.brdf, options.max_albedo);
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = limited.brdf};
-  write_file(options.output, to_json(stored));
+  brdf::write_brdf(options.output, stored);
   const double deviation = table.report.isotropy_deviation;
   if (!json) {
     if (deviation > 0) std::cout << "isotropy deviation " << digits(deviation) << ": fitted as isotropic\n\n";
@@ -153,7 +154,7 @@ void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table
       table, budget, fit_options, [&](const std::string& what) { steps.show(table.name + ": " + what); });
   const brdf::AnisotropicPoint& point = choice.front[choice.chosen];
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
-  write_file(options.output, to_json(stored));
+  brdf::write_brdf(options.output, stored);
   if (!json) {
     std::cout << "isotropy deviation " << digits(table.report.isotropy_deviation) << ": fitted as anisotropic\n\n"
               << to_markdown(choice);
@@ -165,7 +166,9 @@ void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table
 }
 
 void run(const Options& options, bool json) {
+  require_writable(options.output);
   if (!options.fit.is_refined()) {
+    if (brdf::is_binary_path(options.output)) throw FileError(options.output, "a model of mode 'paper' is .json");
     return run_paper(options, *load_table(options.material, options.fit.provenance), json);
   }
   const brdf::Material material = load_any_table(options.material, options.fit.provenance);
@@ -184,7 +187,7 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
       "--family", options->family,
       std::string(kFamilyHelp) +
           "; omitted: frank (paper), independence (refined); with a budget frank, too, and one for each component");
-  command->add_option("-o", options->output, "MODEL.json")->required();
+  command->add_option("-o", options->output, "MODEL.json, or refined MODEL.sklar, binary")->required();
   add_fit_options(*command, options->fit, "refined");
   command->add_option("--max-error", options->fit.budget.max_error,
                       "refined: the smallest model with at most this log1p_mae");

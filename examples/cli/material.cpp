@@ -34,7 +34,7 @@ brdf::BrdfPtr load_brdf(const std::string& path) {
         std::make_shared<const brdf::AnisotropicTable>(brdf::builtin_anisotropic_material()));
   }
   if (path.empty() || path == "synthetic") return std::make_shared<const brdf::TableBrdf>(load_table(path));
-  if (std::filesystem::path(path).extension() == ".json") return brdf::read_brdf(path).brdf();
+  if (brdf::is_model_path(path)) return brdf::read_brdf(path).brdf();
   return brdf::read_material_brdf(path);
 }
 

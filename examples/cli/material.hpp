@@ -26,7 +26,7 @@ void add_material(CLI::App& command, std::string& path);
 /// A material on three coordinates where it is isotropic, on four where not. @throws FileError.
 [[nodiscard]] brdf::Material load_any_table(const std::string& path, brdf::Provenance binary_provenance);
 
-/// A fitted model (.json), or any material, read between its cell centres or as its file says.
+/// A fitted model (.json, .sklar), or any material, read between its cell centres or as its file says.
 [[nodiscard]] brdf::BrdfPtr load_brdf(const std::string& path);
 
 /// The same for what takes isotropic reflectance alone. @throws FileError for an anisotropic one.

@@ -183,6 +183,12 @@ TEST_F(BrdfCommand, FitChoosesTheModelByTheBudget) {
   EXPECT_EQ(model["mode"], "refined");
   EXPECT_EQ(model["families"][0], "frank");
   EXPECT_EQ(run("brdf albedo model.json").status, 0);
+  ASSERT_EQ(run("brdf convert model.json model.sklar").status, 0);
+  EXPECT_LT(read("model.sklar").size(), 700U);
+  ASSERT_EQ(run("brdf convert model.sklar again.json").status, 0);
+  EXPECT_EQ(read("again.json"), read("model.json"));
+  EXPECT_EQ(run("brdf albedo model.sklar").out, run("brdf albedo model.json").out);
+  expect_refused("brdf convert model.json model.exr", "model.exr: a table is written as .binary, a model as .json or");
 }
 
 TEST_F(BrdfCommand, CompareTakesTheRefinedMode) {
@@ -200,6 +206,8 @@ TEST_F(BrdfCommand, FitRefusesWhatItCannotDo) {
   expect_refused("brdf fit --slices 6 -o model.json", "--slices belongs to --mode paper");
   expect_refused("brdf fit --max-bytes 100 -o model.json", "no model has at most 100 bytes; the smallest has ");
   expect_refused("brdf fit --family independence -o missing/model.json", "missing/model.json: cannot be written");
+  expect_refused("brdf fit --family independence -o . ", ".: cannot be written");
+  expect_refused("brdf fit --mode paper -o model.sklar", "model.sklar: a model of mode 'paper' is .json");
   expect_refused("brdf fit missing.binary -o model.json", "missing.binary: no such file");
   write("model.json", "{\"format\": ");
   expect_refused("brdf albedo model.json", "model.json: ");

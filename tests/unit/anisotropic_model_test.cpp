@@ -10,6 +10,7 @@
 #include "brdf/data/tabulate.hpp"
 #include "brdf/model/anisotropic_fit.hpp"
 #include "brdf/model/anisotropic_problem.hpp"
+#include "brdf/model/model_binary.hpp"
 #include "brdf/model/model_io.hpp"
 #include "brdf/model/refined_fit.hpp"
 #include "brdf/study/anisotropic_budget.hpp"
@@ -285,6 +286,9 @@ TEST(AnisotropicModel, SurvivesItsFileBitForBit) {
   const StoredBrdf read = parse_brdf(to_json(stored), "model.json");
   EXPECT_EQ(to_json(read), to_json(stored));
   EXPECT_EQ(read.brdf()->bytes(), fit.brdf->bytes());
+  constexpr std::size_t kHeader = 9 + 3 + 4 + 4;  // magic, three bytes, the material
+  EXPECT_EQ(to_binary(stored).size(), kHeader + fit.brdf->bytes());
+  EXPECT_EQ(to_json(parse_binary(to_binary(stored), "model.sklar")), to_json(stored));
   const Directions wo = random_hemisphere(100, 9), wi = random_hemisphere(100, 10);
   EXPECT_TRUE((read.brdf()->eval(wo, wi) == fit.brdf->eval(wo, wi)).all());
   for (const auto& [from, to] : {std::pair("\"bits\":12", "\"bits\":11"),

@@ -27,6 +27,7 @@ TEST_F(File, IsWrittenWholeAndReplaced) {
   const std::string first("a\0b\n", 4);
   write_file(folder_ / "x", first);
   EXPECT_EQ(content(folder_ / "x"), first);
+  require_writable(folder_ / "x");
   write_file(folder_ / "x", "second");
   EXPECT_EQ(content(folder_ / "x"), "second");
   EXPECT_EQ(files(), 1);
@@ -61,6 +62,7 @@ TEST_F(File, ThatCannotBeReadIsNamed) {
 
 TEST_F(File, FailureNamesThePathAndLeavesNothing) {
   for (const fs::path& path : {folder_ / "missing" / "x", folder_}) {
+    EXPECT_THROW(require_writable(path), FileError) << path;
     try {
       write_file(path, "bytes");
       FAIL() << path << " was written";

@@ -6,6 +6,7 @@
 
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/data/tabulate.hpp"
+#include "brdf/model/model_binary.hpp"
 #include "brdf/model/model_io.hpp"
 #include "brdf/model/refined_fit.hpp"
 #include "brdf/model/refined_problem.hpp"
@@ -257,6 +258,38 @@ TEST(RefinedModel, SurvivesItsFileBitForBit) {
   std::string text = to_json(stored);
   text.replace(text.find("\"bits\":12"), 9, "\"bits\":11");
   EXPECT_THROW((void)parse_brdf(text, "model.json"), FileError);
+}
+
+TEST(RefinedModel, SurvivesItsBinaryFileBitForBit) {
+  for (const int bits : {6, 11, 16}) {
+    const RefinedFit fit =
+        quick_fit(builtin(), {.families = {families::find("frank"), families::find("independence")}, .bits = bits});
+    const StoredBrdf stored{.material = "a \"name\"", .provenance = Provenance::measured, .model = fit.brdf};
+    const std::string bytes = to_binary(stored);
+    const std::string name = "a \"name\"", families = "frankindependence";
+    constexpr std::size_t kHeader = 9 + 3 + 4 + 1 + 2 * 4;  // magic, three bytes, lengths of three texts, their number
+    EXPECT_EQ(bytes.size(), kHeader + name.size() + families.size() + fit.brdf->bytes()) << bits;
+    EXPECT_EQ(to_json(parse_binary(bytes, "model.sklar")), to_json(stored));
+  }
+}
+
+TEST(RefinedModel, RefusesBrokenBinaryFiles) {
+  const StoredBrdf stored{.material = "m", .provenance = Provenance::synthetic, .model = quick_fit(builtin()).brdf};
+  const std::string bytes = to_binary(stored);
+  for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 20) {
+    EXPECT_THROW((void)parse_binary(bytes.substr(0, length), "model.sklar"), FileError) << length;
+  }
+  EXPECT_THROW((void)parse_binary(bytes + "x", "model.sklar"), FileError);
+  Rng rng(11);
+  for (int n = 0; n < 2000; ++n) {  // any byte may be wrong: it is refused, or what is read is a model
+    std::string wrong = bytes;
+    wrong[rng() % wrong.size()] = static_cast<char>(rng());
+    try {
+      const Rgb value = parse_binary(wrong, "model.sklar").brdf()->eval(Vec3(0, 0.6, 0.8), Vec3(0, 0, 1));
+      EXPECT_TRUE(value.isFinite().all() && (value >= 0).all());
+    } catch (const FileError&) {
+    }
+  }
 }
 
 TEST(RefinedModel, FewerBitsCostLittleError) {
