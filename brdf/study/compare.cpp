@@ -17,7 +17,6 @@ BrdfPtr fit_family(CompareRow& row, const MeasuredTable& table, const FamilyInfo
   }
   RefinedFitOptions refined = std::get<RefinedFitOptions>(options);
   refined.families = {family};
-  row.mode = "refined";
   return fit_refined(table, refined).brdf;
 }
 
@@ -42,7 +41,7 @@ View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo&
 }  // namespace
 
 Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::span<const FamilyInfo* const> families,
-                            const FamilyFitOptions& options, const std::filesystem::path& folder,
+                            std::span<const FamilyFitOptions> modes, const std::filesystem::path& folder,
                             const std::function<void(const std::string&)>& progress) {
   const auto say = [&](const std::string& what) {
     if (progress) progress(table->name + ": " + what);
@@ -52,15 +51,21 @@ Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::spa
   std::vector<View> models;
   std::vector<const CellValues*> tables = {&reference.cells};
   Comparison result;
-  for (const FamilyInfo* family : families) {
-    say(family->name);
-    CompareRow row{.material = table->name, .provenance = table->provenance, .family = family->name};
-    try {
-      models.push_back(fit_and_view(row, *table, *family, options));
-    } catch (const std::runtime_error& error) {
-      row.error = error.what();
+  for (const FamilyFitOptions& mode : modes) {
+    for (const FamilyInfo* family : families) {
+      CompareRow row{.material = table->name,
+                     .provenance = table->provenance,
+                     .family = family->name,
+                     .mode = std::holds_alternative<PaperFitOptions>(mode) ? "paper" : "refined"};
+      say(row.mode + ", " + family->name);
+      try {
+        models.push_back(fit_and_view(row, *table, *family, mode));
+        if (modes.size() > 1) models.back().name = row.mode + ", " + models.back().name;
+      } catch (const std::runtime_error& error) {
+        row.error = error.what();
+      }
+      result.rows.push_back(std::move(row));
     }
-    result.rows.push_back(std::move(row));
   }
   say("sphere");
   for (const View& model : models) tables.push_back(&model.cells);

@@ -37,16 +37,16 @@ struct CompareRow {
 using FamilyFitOptions = std::variant<PaperFitOptions, RefinedFitOptions>;
 
 struct Comparison {
-  std::vector<CompareRow> rows;                ///< in the order of the families
+  std::vector<CompareRow> rows;                ///< mode after mode, in the order of the families
   std::vector<std::filesystem::path> figures;  ///< as write_figures names them
 };
 
-/// Fits every family, measures it against the table and writes the figures FOLDER/MATERIAL_*.png.
+/// Fits every family in every mode, measures it against the table and writes the figures FOLDER/MATERIAL_*.png.
 /// @param progress called with what is being done, for a person to read.
 /// @throws FileError for a folder that cannot be written; what fit_paper and fit_refined throw for a bad table.
 [[nodiscard]] Comparison compare_families(std::shared_ptr<const MeasuredTable> table,
-                                          std::span<const FamilyInfo* const> families, const FamilyFitOptions& options,
-                                          const std::filesystem::path& folder,
+                                          std::span<const FamilyInfo* const> families,
+                                          std::span<const FamilyFitOptions> modes, const std::filesystem::path& folder,
                                           const std::function<void(const std::string&)>& progress = {});
 
 }  // namespace sklar::brdf

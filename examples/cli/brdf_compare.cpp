@@ -38,18 +38,21 @@ void write_results(const std::filesystem::path& folder, const std::vector<brdf::
 }
 
 /// In refined mode the largest structure of the ladder within --max-bytes, for every family.
-brdf::FamilyFitOptions fit_options(const FitOptions& options) {
-  if (!options.is_refined()) return options.paper;
+std::vector<brdf::FamilyFitOptions> modes(const FitOptions& options) {
+  std::vector<brdf::FamilyFitOptions> result;
+  if (options.is_paper()) result.emplace_back(options.paper);
+  if (!options.is_refined()) return result;
   brdf::RefinedFitOptions refined = options.refined;
   const double most = std::isinf(options.budget.max_bytes) ? kUsualBytes : options.budget.max_bytes;
   refined.bits = options.bits.value_or(brdf::kLadderBits);
   refined.structure = brdf::largest_structure(most, refined.bits);
-  return refined;
+  result.emplace_back(refined);
+  return result;
 }
 
 void run(const Options& options, bool json) {
   const auto families = parse_families(options.families);
-  const int dimension = options.fit.is_refined() ? 2 : brdf::kPaperDimension;
+  const int dimension = options.fit.is_paper() ? brdf::kPaperDimension : 2;
   for (const FamilyInfo* family : families) family->require_dimension(dimension);
   std::vector<std::string> materials = options.materials;
   if (materials.empty()) materials.emplace_back();
@@ -59,7 +62,7 @@ void run(const Options& options, bool json) {
   for (const std::string& material : materials) {
     const auto table = load_table(material, options.fit.provenance);
     make_folder(options.folder);  // a refused material leaves none
-    brdf::Comparison comparison = brdf::compare_families(table, families, fit_options(options.fit), options.folder,
+    brdf::Comparison comparison = brdf::compare_families(table, families, modes(options.fit), options.folder,
                                                          [&](const auto& what) { steps.show(what); });
     rows.insert(rows.end(), comparison.rows.begin(), comparison.rows.end());
     files.insert(files.end(), comparison.figures.begin(), comparison.figures.end());
@@ -88,7 +91,7 @@ void add_brdf_compare(CLI::App& parent, Common& common) {
                       "isotropic material files (.binary, .bsdf); omitted: the built-in material");
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
-  add_fit_options(*command, options->fit, "paper");
+  add_fit_options(*command, options->fit, {"paper", "refined", "both"});
   finish_command(*command, common, [command, options, &common] {
     settle_fit_options(*command, options->fit);
     run(*options, common.json);

@@ -188,7 +188,7 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
       std::string(kFamilyHelp) +
           "; omitted: frank (paper), independence (refined); with a budget frank, too, and one for each component");
   command->add_option("-o", options->output, "MODEL.json, or refined MODEL.sklar, binary")->required();
-  add_fit_options(*command, options->fit, "refined");
+  add_fit_options(*command, options->fit, {"refined", "paper"});
   command->add_option("--max-error", options->fit.budget.max_error,
                       "refined: the smallest model with at most this log1p_mae");
   command->add_option("--max-ns", options->fit.budget.max_ns, "refined: nanoseconds an RGB value in a batch, at most");

@@ -15,14 +15,12 @@ std::map<std::string, Value> by_text(std::initializer_list<Value> values) {
 
 }  // namespace
 
-void add_fit_options(CLI::App& command, FitOptions& options, const std::string& default_mode) {
+void add_fit_options(CLI::App& command, FitOptions& options, const std::vector<std::string>& modes) {
   using brdf::CellMeasure;
   using brdf::Provenance;
   using brdf::RefinedObjective;
-  options.mode = default_mode;
-  command.add_option("--mode", options.mode, "the model: paper or refined")
-      ->check(CLI::IsMember({"paper", "refined"}))
-      ->capture_default_str();
+  options.mode = modes.front();
+  command.add_option("--mode", options.mode, "the model")->check(CLI::IsMember(modes))->capture_default_str();
   command.add_option("--slices", options.paper.slices, "paper: theta_d slices, a divisor of 90")->capture_default_str();
   const std::map<std::string, FitMethod> methods = {
       {"ls", FitMethod::least_squares}, {"ml", FitMethod::maximum_likelihood}, {"tau", FitMethod::tau_inversion}};
@@ -51,8 +49,8 @@ void add_fit_options(CLI::App& command, FitOptions& options, const std::string& 
 void settle_fit_options(const CLI::App& command, FitOptions& options) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string& text = option->get_description();
-    const std::string other = options.is_refined() ? "paper" : "refined";
-    if (option->count() == 0 || text.rfind(other + ":", 0) != 0) continue;
+    const std::string other = options.mode == "refined" ? "paper" : "refined";
+    if (options.mode == "both" || option->count() == 0 || text.rfind(other + ":", 0) != 0) continue;
     throw std::invalid_argument(option->get_name() + " belongs to --mode " + other);
   }
   options.paper.measure = options.measure;

@@ -17,12 +17,18 @@ using CompareTest = test::TemporaryFolder;
 TEST_F(CompareTest, MeasuresFitsAndDraws) {
   const auto table = std::make_shared<const MeasuredTable>(builtin_material());
   const std::vector<const FamilyInfo*> families = {&families::find("independence")};
+  const std::vector<FamilyFitOptions> modes = {
+      PaperFitOptions{},
+      RefinedFitOptions{.structure = {.components = 2, .half = 8, .difference = 6}, .evaluations = 20}};
   std::vector<std::string> said;
   const Comparison comparison =
-      compare_families(table, families, {}, folder_, [&](const std::string& what) { said.push_back(what); });
-  ASSERT_EQ(comparison.rows.size(), 1U);
+      compare_families(table, families, modes, folder_, [&](const std::string& what) { said.push_back(what); });
+  ASSERT_EQ(comparison.rows.size(), 2U);
   const CompareRow& row = comparison.rows[0];
   EXPECT_EQ(row.error, "");
+  EXPECT_EQ(row.mode, "paper");
+  EXPECT_EQ(comparison.rows[1].mode, "refined");
+  EXPECT_LT(comparison.rows[1].bytes, row.bytes / 10);
   EXPECT_EQ(row.bytes, 4U * 3 * 6 * (90 + 15 + 180 + 1));
   EXPECT_GT(row.eval_ns, 0);
   EXPECT_GT(row.log1p_mae, 0);
