@@ -1,5 +1,7 @@
 #include "brdf/study/compare.hpp"
 
+#include <set>
+
 #include "brdf/study/evaluation_time.hpp"
 #include "copula/study/timing.hpp"
 
@@ -74,10 +76,38 @@ Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::spa
   for (CompareRow& row : result.rows) {
     if (row.error.empty()) row.sphere_psnr_linear_db = sphere_psnr_linear_db(pixels[0], pixels[next++]).mean();
   }
+  next = 0;
+  for (const CompareRow& row : result.rows) {
+    result.spheres.push_back(row.error.empty() ? models[next++].sphere : Image());
+  }
+  result.reference = reference.sphere;
   say("figures");
   const std::string title = table->name + " (" + to_text(table->provenance) + ")";
   result.figures = write_figures(folder, table->name, title, reference, models);
   return result;
+}
+
+std::vector<std::filesystem::path> write_sphere_sheets(std::span<const Comparison> materials,
+                                                       const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  if (materials.empty()) return paths;
+  for (std::size_t model = 0; model < materials.front().rows.size(); ++model) {
+    const CompareRow& first = materials.front().rows[model];
+    std::vector<SpherePair> columns;
+    std::set<std::string> provenances;
+    for (const Comparison& material : materials) {
+      const CompareRow& row = material.rows[model];
+      if (!row.error.empty()) continue;
+      provenances.insert(to_text(row.provenance));
+      columns.push_back({.label = row.material, .reference = &material.reference, .model = &material.spheres[model]});
+    }
+    if (columns.empty()) continue;
+    paths.push_back(folder / ("spheres_" + first.mode + "_" + first.family + ".png"));
+    std::string title = first.mode + ", " + first.family;
+    for (const std::string& provenance : provenances) title += ", " + provenance;
+    write_sphere_figure(paths.back(), title, columns);
+  }
+  return paths;
 }
 
 }  // namespace sklar::brdf

@@ -39,7 +39,14 @@ using FamilyFitOptions = std::variant<PaperFitOptions, RefinedFitOptions>;
 struct Comparison {
   std::vector<CompareRow> rows;                ///< mode after mode, in the order of the families
   std::vector<std::filesystem::path> figures;  ///< as write_figures names them
+  Image reference;                             ///< the sphere of the table
+  std::vector<Image> spheres;                  ///< those of the rows; empty where there is no model
 };
+
+/// Writes FOLDER/spheres_MODE_FAMILY.png for every row, a column for each material that has the model (the paper's
+/// Fig. 3). @return the paths. @throws FileError for a folder that cannot be written.
+std::vector<std::filesystem::path> write_sphere_sheets(std::span<const Comparison> materials,
+                                                       const std::filesystem::path& folder);
 
 /// Fits every family in every mode, measures it against the table and writes the figures FOLDER/MATERIAL_*.png.
 /// @param progress called with what is being done, for a person to read.

@@ -57,6 +57,7 @@ void run(const Options& options, bool json) {
   std::vector<std::string> materials = options.materials;
   if (materials.empty()) materials.emplace_back();
   std::vector<brdf::CompareRow> rows;
+  std::vector<brdf::Comparison> comparisons;
   std::vector<std::filesystem::path> files;
   const StepLine steps;
   for (const std::string& material : materials) {
@@ -67,6 +68,11 @@ void run(const Options& options, bool json) {
     rows.insert(rows.end(), comparison.rows.begin(), comparison.rows.end());
     files.insert(files.end(), comparison.figures.begin(), comparison.figures.end());
     write_results(options.folder, rows);
+    comparisons.push_back(std::move(comparison));
+  }
+  if (comparisons.size() > 1) {
+    const auto sheets = brdf::write_sphere_sheets(comparisons, options.folder);
+    files.insert(files.end(), sheets.begin(), sheets.end());
   }
   if (json) {
     std::cout << to_json(rows);
