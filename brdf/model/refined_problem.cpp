@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -34,72 +33,6 @@ void for_each_cell(const RefinedCells& cells, const LossSlice& slice, const Acti
       node(half.high, azimuth.high, half.share * azimuth.share);
     }
   }
-}
-
-/// The tensor spline nearest to values on a grid, with a small weight on the differences of neighbouring coefficients:
-/// beyond the grid it goes on as it is at its edge.
-Matrix least_squares(const Matrix& across, const Matrix& along, const Matrix& values) {
-  constexpr double kSmoothing = 1;
-  const auto normal = [&](const Matrix& basis) {
-    const Eigen::Index count = basis.cols();
-    const Matrix steps =
-        Matrix::Identity(count, count).bottomRows(count - 1) - Matrix::Identity(count, count).topRows(count - 1);
-    return Matrix(basis.transpose() * basis + kSmoothing * steps.transpose() * steps);
-  };
-  const Matrix left = normal(across).ldlt().solve(across.transpose() * values * along);
-  return normal(along).ldlt().solve(left.transpose()).transpose();
-}
-
-/// Logs of the means over azimuth by channel; where nothing was measured those of the nearest bin.
-std::array<Matrix, 3> log_means(const RefinedCells& cells) {
-  constexpr float kLowest = 1e-4F;
-  std::array<Matrix, 3> means;
-  means.fill(Matrix::Zero(Grid::theta_h, Grid::theta_d));
-  Eigen::ArrayXXd known = Eigen::ArrayXXd::Zero(Grid::theta_h, Grid::theta_d);
-  for (int j = 0; j < Grid::theta_d; ++j) {
-    const LossSlice& slice = cells.slices[static_cast<std::size_t>(j)];
-    for (int i = 0; i < Grid::theta_h; ++i) {
-      const auto sum = [&](const std::vector<float>& plane) {
-        float total = 0;
-        for (int l = 0; l < kLossColumns; ++l) {
-          const auto cell = static_cast<std::size_t>(i * kLossColumns + l);
-          if (slice.weight[cell] > 0) total += plane[cell];
-        }
-        return total;
-      };
-      float count = 0;
-      for (int l = 0; l < kLossColumns; ++l) {
-        count += slice.weight[static_cast<std::size_t>(i * kLossColumns + l)] > 0 ? 1.0F : 0.0F;
-      }
-      known(i, j) = static_cast<double>(count);
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (count > 0) means[c](i, j) = std::log(std::max(sum(slice.measured[c]) / count, kLowest));
-      }
-    }
-  }
-  for (Matrix& mean : means) {
-    for (int j = 0; j < Grid::theta_d; ++j) {
-      int last = -1;
-      for (int i = 0; i < Grid::theta_h; ++i) {
-        if (known(i, j) > 0) {
-          for (int gap = last < 0 ? 0 : last + 1; gap < i; ++gap) mean(gap, j) = mean(last < 0 ? i : last, j);
-          last = i;
-        }
-      }
-      for (int i = last + 1; last >= 0 && i < Grid::theta_h; ++i) mean(i, j) = mean(last, j);
-    }
-    const auto is_known = [&](int j) { return (known.col(j) > 0).any(); };
-    for (int j = 0; j < Grid::theta_d; ++j) {
-      if (is_known(j)) continue;
-      for (int away = 1; away < Grid::theta_d; ++away) {
-        const int from = j - away >= 0 && is_known(j - away) ? j - away : j + away;
-        if (from >= Grid::theta_d || !is_known(from)) continue;
-        mean.col(j) = mean.col(from);
-        break;
-      }
-    }
-  }
-  return means;
 }
 
 /// Of f c over cells and channels, c the root mean square of both cosines.
@@ -136,6 +69,7 @@ RefinedProblem::RefinedProblem(const RefinedStructure& structure, const std::vec
       cells_(std::move(cells)),
       layout_(structure, coupled(families)),
       lattice_(structure),
+      start_(refined_start(structure, layout_, cells_)),
       half_(spline_basis(cells_.half, structure.half)),
       difference_(spline_basis(cells_.difference, structure.difference)),
       colour_half_(lattice_basis(cells_.half, Lattice::half, structure.colour_half)),
@@ -147,7 +81,6 @@ RefinedProblem::RefinedProblem(const RefinedStructure& structure, const std::vec
   for (const FamilyInfo& family : families) {
     couplings_.push_back(family.parameters.empty() ? std::nullopt : std::optional(Coupling(family)));
   }
-  start_ = find_start();
   const double square = mean_square(cells_);
   if (square > 0) image_scale_ = 1 / square;
 }
@@ -405,29 +338,6 @@ std::vector<double> RefinedProblem::curvature(const LossWeights& weights, const 
   for (const double value : result) mean += value / static_cast<double>(result.size());
   for (double& value : result) value = std::sqrt((value + kLeast * mean + 2 * kRidge) / cells_.total_weight);
   return result;
-}
-
-std::vector<double> RefinedProblem::find_start() const {
-  constexpr double kTilt = 3;  // of the log shares of the first and the last component over theta_h
-  const std::array<Matrix, 3> means = log_means(cells_);
-  std::vector<double> x(static_cast<std::size_t>(layout_.size()));
-  const int components = structure_.components;
-  const Matrix red = least_squares(colour_half_, colour_difference_, means[0] - means[1]);
-  const Matrix blue = least_squares(colour_half_, colour_difference_, means[2] - means[1]);
-  for (int k = 0; k < components; ++k) {
-    Matrix log_part = means[1];
-    for (int i = 0; i < Grid::theta_h; ++i) {
-      const double position = (i + 0.5) / Grid::theta_h - 0.5;
-      const auto tilt = [&](int r) { return components > 1 ? (2.0 * r / (components - 1) - 1) * kTilt : 0.0; };
-      double sum = 0;
-      for (int r = 0; r < components; ++r) sum += std::exp(tilt(r) * position);
-      log_part.row(i).array() += tilt(k) * position - std::log(sum);
-    }
-    matrix(x, layout_, k, RefinedPart::shape, structure_.half) = least_squares(half_, difference_, log_part);
-    matrix(x, layout_, k, RefinedPart::red, structure_.colour_half) = red;
-    matrix(x, layout_, k, RefinedPart::blue, structure_.colour_half) = blue;
-  }
-  return x;
 }
 
 }  // namespace sklar::brdf

@@ -10,6 +10,10 @@
 
 namespace sklar::brdf {
 
+/// RefinedProblem::start.
+[[nodiscard]] std::vector<double> refined_start(const RefinedStructure& structure, const RefinedLayout& layout,
+                                                const RefinedCells& cells);
+
 class RefinedProblem {
  public:
   /// @param families one a component.
@@ -29,7 +33,6 @@ class RefinedProblem {
   [[nodiscard]] std::vector<double> curvature(const LossWeights& weights, const std::vector<double>& x) const;
 
  private:
-  [[nodiscard]] std::vector<double> find_start() const;
   [[nodiscard]] LossWeights scaled(LossWeights weights) const;
   struct Grids;  // the log densities of a component on the grid of the table
   [[nodiscard]] Grids grids(const std::vector<double>& x) const;
