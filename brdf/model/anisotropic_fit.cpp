@@ -26,11 +26,7 @@ AnisotropicFit fit_anisotropic(const AnisotropicTable& table, const AnisotropicF
   const double log_scale = std::log(cells.scale);
   const AnisotropicProblem problem(options.structure, std::move(cells));
   std::vector<double> x = problem.start();
-  const StagedProblem staged{
-      .evaluate = [&](const auto& weights, const auto& at,
-                      auto& gradient) { return problem.evaluate(weights, at, gradient); },
-      .curvature = [&](const auto& weights, const auto& at) { return problem.curvature(weights, at); }};
-  const StagedSearch search = search_in_stages(staged, options.objective, options.evaluations, progress, x);
+  const StagedSearch search = search_in_stages(staged(problem), options.objective, options.evaluations, progress, x);
   const AnisotropicLayout& layout = problem.layout();
   for (int k = 0; k < options.structure.components; ++k) {  // the weights of a spline sum to 1
     const auto first = x.begin() + layout.first(k, AnisotropicPart::shape);

@@ -32,11 +32,7 @@ void shift(const RefinedLayout& layout, int components, double by, std::vector<d
 /// @param x the start, in the units of the cells
 RefinedFit search_from(std::vector<double> x, const RefinedProblem& problem, const RefinedFitOptions& options,
                        const std::vector<FamilyInfo>& families, double log_scale, const Progress& progress) {
-  const StagedProblem staged{
-      .evaluate = [&](const auto& weights, const auto& at,
-                      auto& gradient) { return problem.evaluate(weights, at, gradient); },
-      .curvature = [&](const auto& weights, const auto& at) { return problem.curvature(weights, at); }};
-  const StagedSearch search = search_in_stages(staged, options.objective, options.evaluations, progress, x);
+  const StagedSearch search = search_in_stages(staged(problem), options.objective, options.evaluations, progress, x);
   const int components = options.structure.components;
   shift(problem.layout(), components, -log_scale, x);
   PackedCoefficients packed = pack(problem.layout(), options.bits, x);

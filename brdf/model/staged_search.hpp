@@ -26,6 +26,14 @@ struct StagedProblem {
   std::function<std::vector<double>(const LossWeights&, const std::vector<double>& x)> curvature;
 };
 
+/// @param problem RefinedProblem or AnisotropicProblem; kept by reference.
+template <class Problem>
+[[nodiscard]] StagedProblem staged(const Problem& problem) {
+  return {.evaluate = [&](const auto& weights, const auto& x,
+                          auto& gradient) { return problem.evaluate(weights, x, gradient); },
+          .curvature = [&](const auto& weights, const auto& x) { return problem.curvature(weights, x); }};
+}
+
 struct StagedSearch {
   double start = 0;      ///< objective at the start
   double objective = 0;  ///< and at the end
