@@ -25,7 +25,7 @@ constexpr float kLargestLog = 60;
 HWY_INLINE void azimuth_factors(const LossModel& model, int row, V z, std::ptrdiff_t at, V* factor) {
   const D d;
   for (int k = 0; k < model.components; ++k) {
-    const float* powers = model.powers.data() + k * model.degree;
+    const float* powers = model.powers.data() + static_cast<std::ptrdiff_t>(k) * model.degree;
     V log_factor = hn::Zero(d);
     for (int m = model.degree - 1; m >= 0; --m) log_factor = hn::Mul(hn::Add(log_factor, hn::Set(d, powers[m])), z);
     if (!model.coupling.empty()) {
@@ -50,7 +50,7 @@ double slice_loss(const LossWeights& weights, const LossSlice& slice, const Loss
       }
     }
     for (std::ptrdiff_t at = 0; at < kLossColumns; at += static_cast<std::ptrdiff_t>(hn::MaxLanes(d))) {
-      const std::ptrdiff_t cell = row * kLossColumns + at;
+      const std::ptrdiff_t cell = std::ptrdiff_t{row} * kLossColumns + at;
       const V weight = hn::LoadU(d, slice.weight.data() + cell);
       if (hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)))) continue;
       const V z = hn::LoadU(d, slice.azimuth.data() + cell);
