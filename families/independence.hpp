@@ -45,7 +45,11 @@ class Independence final : public ArchimedeanCopula {
       for (int k = 1; k <= dim(); term *= r / k++) sum += term;
       if (tail == Tail::upper) {
         sum = 0;
-        for (int k = dim(); term > sum * 1e-17; term *= r / ++k) sum += term;
+        int k = dim();
+        while (term > sum * 1e-17) {
+          sum += term;
+          term *= r / ++k;
+        }
       }
       out(i) = v(i) == 0 || v(i) == 1 ? (tail == Tail::lower ? v(i) : 1 - v(i)) : sum;
     }
