@@ -123,12 +123,10 @@ struct Weights {
       product.multiply(d, weight.a, weight.lost_a, weight.complement);
       all_scalings.multiply(d, hn::Mul(weight.scaling, balance), hn::Mul(weight.lost_scaling, balance));
     }
-    constexpr double kOfProduct = 2;
-    const double of_complements = static_cast<double>(count) / 2 + 5;
-    parts = product.parts(d, c.theta, c.rest, equal_errors_at(kOfProduct, of_complements));
+    of_x = hn::Set(d, 2.0);
+    of_w = hn::Set(d, static_cast<double>(count) / 2 + 5);
+    parts = product.parts(d, c.theta, c.rest, of_x, of_w);
     scalings = all_scalings.value();
-    of_x = hn::Set(d, kOfProduct);
-    of_w = hn::Set(d, of_complements);
   }
 
   HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }

@@ -122,7 +122,7 @@ class Clayton {
   [[nodiscard]] std::shared_ptr<const Kernels> kernels(int dim) const {
     std::vector<double> log_rising;
     for (int k = 0; k <= dim; ++k)
-      log_rising.push_back(constants<Narrow>().log_rising[static_cast<std::size_t>(k)].value);
+      log_rising.push_back(static_cast<double>(constants<Extended>().log_rising[static_cast<std::size_t>(k)].value));
     return clayton::kernels(theta_, std::move(log_rising));
   }
 

@@ -1,8 +1,8 @@
 // Vector kernels of the Frank copula.
 //
 // In dimension 2, with C of theta > 0 at hand, -theta has v - C(1-u, v) (Genest 1987, sec. 2): h and its inverse of
-// -theta at u are those of theta at 1 - u, and so is the density. Errors are counted in units of 2^-52: exp, log and
-// log1p are within 1.5, an exponent theta u is off by theta u / 2.
+// -theta at u are those of theta at 1 - u, and so is the density. Errors are counted in units of 2^-52; an exponent
+// theta u is off by theta u / 2.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "families/frank_simd.cpp"
@@ -27,7 +27,7 @@ struct KernelConstants {
         inverse_q(1 / q),
         tail(std::exp(-theta)),
         upper_scale(std::expm1(theta)),
-        log_theta_by_q(std::log(theta / q)),
+        log_theta_by_q(std::log(-theta / std::expm1(-static_cast<long double>(theta)))),
         widening(std::max(1.0, 4 / theta)),
         polynomials(std::move(coefficients)) {}
 
@@ -37,7 +37,7 @@ struct KernelConstants {
   double inverse_q;
   double tail;         // e^-theta
   double upper_scale;  // e^theta - 1
-  double log_theta_by_q;
+  long double log_theta_by_q;
   double widening;                        // theta u is a normal number from this multiple of the smallest on
   std::vector<Coefficients> polynomials;  // R_n at n
 };
@@ -82,7 +82,8 @@ HWY_INLINE Vec<D> log_pdf_pair(D d, const KernelConstants& c, const Columns<D>& 
   const Vec<D> difference = hn::Mul(hn::Sub(larger.rest, hn::Set(d, c.tail)), hn::Set(d, c.inverse_q));
   const Vec<D> sum = hn::MulAdd(scaled, smaller.rest, difference);
   const Vec<D> complement = hn::IfThenElse(hn::Gt(larger.value, hn::Set(d, 0.5)), sum, direct);
-  const Vec<D> front = hn::NegMulAdd(hn::Set(d, c.theta), hn::Add(u, v), hn::Set(d, c.log_theta_by_q));
+  const Vec<D> front =
+      hn::NegMulAdd(hn::Set(d, c.theta), hn::Add(u, v), hn::Set(d, static_cast<double>(c.log_theta_by_q)));
   const Vec<D> log_complement = log(d, complement);
   const Vec<D> value = hn::NegMulAdd(hn::Set(d, 2.0), log_complement, front);
   const Vec<D> error = hn::Sub(hn::MulAdd(hn::Set(d, c.theta), hn::Add(u, v), hn::Set(d, 2 * c.theta + 15)),
@@ -99,19 +100,24 @@ struct Weights {
     const Vec<D> inverse_q = hn::Set(d, c.inverse_q);
     Product<D> product(d);
     Sum<D> sum_of_u(d);
+    of_x = hn::Set(d, 3.0);
     for (Index k = 0; k < count; ++k) {
       const Vec<D> u = rows[k];
       inside = hn::And(inside, is_inside(c, rows, k));
       const Weight<D> a(d, c, u);
-      product.multiply(d, hn::Mul(a.value, inverse_q), hn::Mul(hn::Sub(a.rest, hn::Set(d, c.tail)), inverse_q));
+      const Vec<D> complement = hn::Mul(hn::Sub(a.rest, hn::Set(d, c.tail)), inverse_q);
+      const Vec<D> of_complement = hn::MulAdd(hn::MulAdd(hn::Set(d, c.theta / 2), u, hn::Set(d, 2.5)), complement,
+                                              hn::Set(d, c.tail * c.inverse_q * (c.theta / 2 + 1.5)));
+      const Factor<D> factor(d, hn::Mul(a.value, inverse_q), 3.5, complement, of_complement);
+      product.multiply(d, factor.value, factor.lost, complement);
+      of_x = hn::Add(of_x, factor.error);
       sum_of_u.add(d, u);
     }
     sum = sum_of_u.value();
-    const double of_complements = n / 2 + c.theta / 2 + 3, of_product = 2.3 * n + 2;
-    parts = product.parts(d, c.q, c.tail, equal_errors_at(of_product, of_complements));
+    const double of_complements = n / 2 + c.theta / 2 + 3;
+    parts = product.parts(d, c.q, c.tail, of_x, hn::Set(d, of_complements));
     const Vec<D> of_difference = hn::Div(hn::Set(d, n * c.tail * (c.theta / 2 + 2)), parts.w);
     of_w = hn::Add(of_difference, hn::Set(d, of_complements));
-    of_x = hn::Set(d, of_product);
   }
 
   HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }
@@ -128,10 +134,11 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Weights<D> all(d, c, rows, rows.size());
   const Coefficients& polynomial = c.polynomials[static_cast<std::size_t>(rows.size())];
   const Estimate<D> term = log_ratio_term(d, polynomial, all.parts, 1.0, all.of_x, all.of_w);
-  const double constant = static_cast<double>(rows.size() - 1) * c.log_theta_by_q;
-  const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), all.sum);
-  const Vec<D> value = hn::Add(hn::Sub(hn::Set(d, constant), exponent), term.value);
-  const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, 1.5), exponent, hn::Set(d, 2 * constant)), term.error);
+  const auto constant = static_cast<double>(static_cast<long double>(rows.size() - 1) * c.log_theta_by_q);
+  const Vec<D> exponent = hn::Mul(hn::Set(d, c.theta), all.sum), front = hn::Sub(hn::Set(d, constant), exponent);
+  const Vec<D> value = hn::Add(front, term.value);
+  const Vec<D> rounding = hn::Mul(hn::Set(d, 0.5), hn::Add(hn::Abs(front), hn::Abs(value)));
+  const Vec<D> error = hn::Add(hn::Add(exponent, hn::Set(d, constant / 2 + 1)), hn::Add(rounding, term.error));
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, all.inside);
 }
 

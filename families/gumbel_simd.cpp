@@ -1,5 +1,4 @@
-// Vector kernels of the Gumbel copula. Errors are counted in units of 2^-52: exp, log, expm1 and log1p are within 1.5,
-// x = -log u and log x by 1.5 and 1.5 (1 + |log x|), an exponent z by 2 z beside what its factors carry.
+// Vector kernels of the Gumbel copula. Errors are counted in units of 2^-52.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "families/gumbel_simd.cpp"
@@ -7,8 +6,6 @@
 //
 #include <hwy/foreach_target.h>
 //
-#include <bit>
-
 #include "copula/simd/decrease-inl.h"
 #include "copula/simd/polynomial-inl.h"
 #include "copula/simd/rows-inl.h"
@@ -20,8 +17,19 @@ namespace sklar::families::gumbel {
 
 /// What depends on theta and the dimension alone.
 struct KernelConstants {
-  double theta;
+  KernelConstants(double parameter, std::vector<Coefficients> coefficients)
+      : theta(parameter),
+        inverse_theta(1 / theta),
+        lost_inverse(static_cast<double>(1 / static_cast<long double>(theta) - inverse_theta)),
+        polynomials(std::move(coefficients)) {
+    for (std::size_t n = 0; n < polynomials.size(); ++n)
+      roots.push_back(std::pow(static_cast<double>(n), inverse_theta));
+  }
+
+  double theta, inverse_theta;
+  double lost_inverse;                    // 1/theta - inverse_theta
   std::vector<Coefficients> polynomials;  // R_n at n
+  std::vector<double> roots;              // n^(1/theta) at n
 };
 
 constexpr int kMostSteps = 8;
@@ -39,39 +47,80 @@ using namespace sklar::simd::HWY_NAMESPACE::formulas;
 template <class D>
 constexpr double kLastStep = Precision<D>::kSingle ? 2e-3 : 1e-6;
 
-/// log c = (theta-1) (sum log x_i - d log s) + sum x_i - s + log R_d(1/s), s^theta = sum x_i^theta.
+constexpr double kOfX = 1.4, kOfLog = kOfX + kLogPartError;  // relative of x, absolute of log x beside |log x|/2
+
+/// s of some x_i = -log u_i, s^theta = sum x_i^theta, and the absolute error of its logarithm. kPair: of two.
+template <class D, bool kPair = false>
+class PowerMean {
+ public:
+  explicit PowerMean(D d) : inside(hn::Le(hn::Zero(d), hn::Zero(d))), powers_(d), weighed_(hn::Zero(d)) {}
+
+  /// Adds x; returns log x.
+  HWY_INLINE Vec<D> add(D d, const KernelConstants& c, Vec<D> x) {
+    const Vec<D> log_x = log(d, x), power = exp(d, hn::Mul(hn::Set(d, c.theta), log_x));
+    powers_.add(d, power);
+    weighed_ = hn::MulAdd(power, hn::Abs(log_x), weighed_);
+    return log_x;
+  }
+
+  HWY_INLINE void finish(D d, const KernelConstants& c, Index count) {
+    constexpr double kProduct = HWY_NATIVE_FMA ? 0 : 0.5;
+    const Vec<D> sum = powers_.value(), log_sum = log(d, sum), lost = hn::Mul(log_sum, hn::Set(d, c.lost_inverse));
+    inside = hn::Gt(log_sum, hn::Set(d, Precision<D>::kLowestExponent));
+    log_value = hn::MulAdd(log_sum, hn::Set(d, c.inverse_theta), lost);
+    value = exp(d, log_value);
+    // A power is off by theta times what x and log x are, theta |log x| / 2 by its exponent, and 1. Of x it is 1/2 and
+    // 0.3/x: weighed by the powers, 1/x is at most n^(1/theta) / s (Hoelder).
+    const Vec<D> mean_inverse = hn::Div(hn::Set(d, kLogPartError * c.roots[static_cast<std::size_t>(count)]), value);
+    const Vec<D> of_x = hn::Add(hn::Min(mean_inverse, hn::Set(d, kOfX - 0.5)), hn::Div(weighed_, sum));
+    const double of_roundings = 0.5 + kLogPartError + (1.5 + kLogPartError) * c.inverse_theta;
+    error = hn::MulAdd(hn::Set(d, 1 + kProduct), hn::Abs(log_value), hn::Add(of_x, hn::Set(d, of_roundings)));
+  }
+
+  Vec<D> value, log_value, error;
+  Mask<D> inside;
+
+ private:
+  Sum<D, kPair> powers_;
+  Vec<D> weighed_;  // sum x_i^theta |log x_i|
+};
+
+/// log c = (theta-1) (sum log x_i - d log s) + sum x_i - s + log R_d(1/s).
 template <bool kPair, class D>
 HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& rows) {
+  constexpr double kProduct = HWY_NATIVE_FMA ? 0 : 0.5;
   const Index size = kPair ? 2 : rows.size();
   const auto n = static_cast<double>(size);
   const double excess = c.theta - 1;
-  Sum<D, kPair> powers(d), x_sum(d), log_sum(d);
+  PowerMean<D, kPair> mean(d);
+  Sum<D, kPair> x_sum(d), log_sum(d);
   Vec<D> sizes = hn::Zero(d);  // sum |log x_i|
   auto inside = rows.inside(0);
   for (Index k = 0; k < size; ++k) {
     inside = hn::And(inside, rows.inside(k));
-    const Vec<D> x = hn::Neg(rows.log_of(k)), log_x = log(d, x), exponent = hn::Mul(hn::Set(d, c.theta), log_x);
-    powers.add(d, exp(d, exponent));
+    const Vec<D> x = hn::Neg(rows.log_of(k)), log_x = mean.add(d, c, x);
     x_sum.add(d, x);
     log_sum.add(d, log_x);
     sizes = hn::Add(sizes, hn::Abs(log_x));
   }
-  const Vec<D> log_power = log(d, powers.value()), log_s = hn::Mul(log_power, hn::Set(d, 1 / c.theta));
-  inside = hn::And(inside, hn::Gt(log_power, hn::Set(d, Precision<D>::kLowestExponent)));
-  const Vec<D> s = exp(d, log_s);
+  mean.finish(d, c, size);
+  const Vec<D> s = mean.value, half = hn::Set(d, 0.5), count = hn::Set(d, n), scale = hn::Set(d, excess);
   const Coefficients& coefficients = c.polynomials[static_cast<std::size_t>(size)];
   const LogPolynomial<D> polynomial = log_polynomial(d, coefficients, hn::Set(d, 1.0), s);
-  const Vec<D> ratios = hn::NegMulAdd(hn::Set(d, n), log_s, log_sum.value());
-  const Vec<D> gap = hn::Sub(x_sum.value(), s);
-  const Vec<D> value = hn::MulAdd(hn::Set(d, excess), ratios, hn::Add(gap, polynomial.log));
-  // log s: a power t is off by t (3 theta + 2.5 |log t|), t |log t| <= sum max(1, |log sum|).
-  const Vec<D> of_log_s = hn::MulAdd(hn::Set(d, 3.0), hn::Abs(log_s), hn::Set(d, 3 + 4 / c.theta));
+  const Vec<D> ratios = hn::NegMulAdd(count, mean.log_value, log_sum.value());
+  const Vec<D> rest = hn::Add(hn::Sub(x_sum.value(), s), polynomial.log);
+  const Vec<D> value = hn::MulAdd(scale, ratios, rest);
+  // Each term by what it depends on and its own roundings.
   const Vec<D> weight = hn::Add(hn::Add(s, polynomial.slope), hn::Set(d, excess * n));
-  const Vec<D> of_ratios = hn::MulAdd(hn::Set(d, 2.5 * excess), sizes, hn::Set(d, 1.5 * excess * n));
-  const Vec<D> of_rest = hn::MulAdd(hn::Set(d, 2.5), hn::Add(x_sum.value(), s), polynomial.error);
-  const Vec<D> of_coefficients = hn::Set(d, coefficients.relative_error / Precision<D>::kUnit);
-  const Vec<D> error = hn::MulAdd(of_log_s, weight, hn::Add(hn::Add(of_ratios, of_rest), of_coefficients));
-  return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, inside);
+  const Vec<D> of_ratios = hn::Add(hn::MulAdd(hn::Set(d, kProduct * n), hn::Abs(mean.log_value), hn::Abs(ratios)),
+                                   hn::Add(sizes, hn::Set(d, n * kOfLog)));
+  const Vec<D> of_x = hn::MulAdd(hn::Set(d, 1.5), x_sum.value(), hn::Add(hn::Add(s, s), hn::Set(d, n * kLogPartError)));
+  const Vec<D> of_y = hn::MulAdd(hn::Set(d, 1.5), polynomial.slope, polynomial.error);
+  const Vec<D> roundings = hn::MulAdd(half, hn::Add(hn::Abs(rest), hn::Abs(value)),
+                                      hn::Set(d, coefficients.relative_error / Precision<D>::kUnit));
+  const Vec<D> of_terms = hn::MulAdd(scale, of_ratios, hn::Add(hn::Add(of_x, of_y), roundings));
+  const Vec<D> error = hn::Mul(hn::Set(d, Precision<D>::kUnit), hn::MulAdd(mean.error, weight, of_terms));
+  return log_within(d, {value, error}, hn::And(inside, mean.inside));
 }
 
 template <class D>
@@ -98,28 +147,19 @@ HWY_INLINE Vec<D> conditional_pair(D d, const KernelConstants& c, Tail tail, con
                      hn::And(in_range, hn::And(rows.inside(0), rows.inside(1))));
 }
 
-/// s of some coordinates, s^theta = sum x_i^theta, and the absolute error of its logarithm.
+/// s of the coordinates given.
 template <class D>
-struct PowerMean {
-  HWY_INLINE PowerMean(D d, const KernelConstants& c, const Columns<D>& rows, Index count) : inside(rows.inside(0)) {
-    Sum<D> powers(d);
-    for (Index k = 0; k < count; ++k) {
-      inside = hn::And(inside, rows.inside(k));
-      powers.add(d, exp(d, hn::Mul(hn::Set(d, c.theta), log(d, hn::Neg(rows.log_of(k))))));
-    }
-    const Vec<D> log_power = log(d, powers.value());
-    inside = hn::And(inside, hn::Gt(log_power, hn::Set(d, Precision<D>::kLowestExponent)));
-    log_value = hn::Mul(log_power, hn::Set(d, 1 / c.theta));
-    value = exp(d, log_value);
-    // A power t is off by t (1.5 theta + 2 |log t| + 1.5), the sum of t |log t| at most sum (|log sum| + log count).
-    const auto log2_above = static_cast<double>(std::bit_width(static_cast<std::size_t>(count)));
-    const double of_logs = 1.4 * log2_above + 4;  // 2 log 2 is below 1.4
-    error = hn::MulAdd(hn::Set(d, 5.0), hn::Abs(log_value), hn::Set(d, 2 + of_logs / c.theta));
+HWY_INLINE PowerMean<D> mean_of_given(D d, const KernelConstants& c, const Columns<D>& rows) {
+  PowerMean<D> mean(d);
+  auto inside = rows.inside(0);
+  for (Index k = 0; k < rows.size() - 1; ++k) {
+    inside = hn::And(inside, rows.inside(k));
+    mean.add(d, c, hn::Neg(rows.log_of(k)));
   }
-
-  Vec<D> value, log_value, error;
-  Mask<D> inside;
-};
+  mean.finish(d, c, rows.size() - 1);
+  mean.inside = hn::And(inside, mean.inside);
+  return mean;
+}
 
 /// -log h = s expm1(l) + j (theta-1) l - log( R_j(e^-l / s) / R_j(1/s) ) of the j given, all positive, and its error
 /// and derivative in l.
@@ -161,7 +201,7 @@ HWY_INLINE Vec<D> conditional_rows(D d, const KernelConstants& c, Tail tail, con
   const Index last = rows.size() - 1;
   const Vec<D> one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), theta = hn::Set(d, c.theta);
   const Vec<D> inverse_theta = hn::Set(d, 1 / c.theta);
-  const PowerMean<D> s(d, c, rows, last);
+  const PowerMean<D> s = mean_of_given(d, c, rows);
   const Vec<D> log_x = log(d, hn::Neg(rows.log_of(last))), exponent = hn::Mul(theta, hn::Sub(log_x, s.log_value));
   const Vec<D> log_growth = log1p(d, exp(d, exponent)), l = hn::Mul(log_growth, inverse_theta);
   // Of (x/s)^theta beside what its factors carry, and of l.
@@ -239,7 +279,7 @@ class LevelTrial {
 template <class D>
 HWY_INLINE Vec<D> conditional_inverse_rows(D d, const KernelConstants& c, Tail tail, const Columns<D>& rows) {
   const Index last = rows.size() - 1;
-  const PowerMean<D> s(d, c, rows, last);
+  const PowerMean<D> s = mean_of_given(d, c, rows);
   const Vec<D> target = hn::Neg(rows.log_of(last));
   const Vec<D> slope = hn::Add(s.value, hn::Set(d, static_cast<double>(last) * c.theta - 1));
   const LevelTrial<D> trial(d, c, last, s, target);
@@ -299,7 +339,7 @@ HWY_EXPORT(table);
 
 std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials) {
   if (!(theta < 1e6)) return nullptr;
-  return make_kernels(KernelConstants{theta, std::move(polynomials)}, *HWY_DYNAMIC_DISPATCH(table)());
+  return make_kernels(KernelConstants(theta, std::move(polynomials)), *HWY_DYNAMIC_DISPATCH(table)());
 }
 
 }  // namespace sklar::families::gumbel

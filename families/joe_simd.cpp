@@ -1,5 +1,5 @@
-// Vector kernels of the Joe copula. Errors are counted in units of 2^-52: exp, log, expm1 and log1p are within 1.5, an
-// exponent z = theta log(1-u) by 2 |z|.
+// Vector kernels of the Joe copula. Errors are counted in units of 2^-52; an exponent z = theta log(1-u) is off by
+// 2 |z|.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "families/joe_simd.cpp"
@@ -57,20 +57,27 @@ struct Weights {
     const auto n = static_cast<double>(count);
     Product<D, kPair> product(d);
     Sum<D, kPair> log_sum(d);
+    of_x = hn::Set(d, kPair ? 8.0 : 2.0);
     for (Index k = 0; k < count; ++k) {
       inside = hn::And(inside, rows.inside(k));
       const Weight<D> weight(d, c, rows, k);
-      product.multiply(d, weight.p, weight.q);
+      if constexpr (kPair) {
+        product.multiply(d, weight.p, weight.q);
+      } else {
+        const Vec<D> size = hn::MulAdd(hn::Set(d, -2 * c.theta), weight.log_upper, hn::Set(d, 1.0));
+        const Factor<D> factor(d, weight.p, 3.5, weight.q, hn::Mul(weight.q, size));
+        product.multiply(d, factor.value, factor.lost, weight.q);
+        of_x = hn::Add(of_x, factor.error);
+      }
       log_sum.add(d, weight.log_upper);
     }
     log_uppers = log_sum.value();
-    const double of_complements = n / 2 + 3, of_product = 3.5 * n + 1;
-    parts = product.parts(d, 1.0, 0.0, equal_errors_at(of_product, of_complements + 2));
+    const double of_complements = n / 2 + 3;
+    parts = product.parts(d, 1.0, 0.0, of_x, hn::Set(d, of_complements + 2));
     inside = hn::And(inside, hn::Gt(parts.w, hn::Set(d, Precision<D>::kSmallestProbability)));
     // q |log q| is below 1 - q, and where q is below w, below w max(1, |log w|).
     const Vec<D> log_size = hn::Max(hn::Abs(log(d, parts.w)), hn::Set(d, 1.0));
     of_w = hn::MulAdd(hn::Set(d, 2.0), log_size, hn::Set(d, of_complements));
-    of_x = hn::Set(d, of_product);
   }
 
   HWY_INLINE Vec<D> of_odds() const { return error_of_odds(parts, of_x, of_w); }
@@ -90,8 +97,13 @@ HWY_INLINE Vec<D> log_pdf_rows(D d, const KernelConstants& c, const Columns<D>& 
   const Coefficients& polynomial = c.polynomials[static_cast<std::size_t>(size)];
   const Estimate<D> term = log_ratio_term(d, polynomial, all.parts, c.rest, all.of_x, all.of_w);
   const Vec<D> upper = hn::Mul(hn::Set(d, c.theta - 1), all.log_uppers);
-  const Vec<D> value = hn::Add(hn::Add(hn::Set(d, (n - 1) * c.log_theta), upper), term.value);
-  const Vec<D> error = hn::Add(hn::MulAdd(hn::Set(d, -2.5), upper, hn::Set(d, 2 * n * c.log_theta)), term.error);
+  const Vec<D> front = hn::Add(hn::Set(d, (n - 1) * c.log_theta), upper), value = hn::Add(front, term.value);
+  // Each log(1-u) by half of it and kLog1pPartError; the constant by 1.5.
+  const Vec<D> least = hn::Min(hn::Neg(upper), hn::Set(d, n * (c.theta - 1) * kLog1pPartError));
+  const Vec<D> of_upper = hn::NegMulAdd(hn::Set(d, 1.5), upper, least);
+  const Vec<D> rounding = hn::Mul(hn::Set(d, 0.5), hn::Add(hn::Abs(front), hn::Abs(value)));
+  const Vec<D> of_front = hn::Add(hn::Add(of_upper, rounding), hn::Set(d, 1.5 * n * c.log_theta));
+  const Vec<D> error = hn::Add(of_front, term.error);
   return log_within(d, {value, hn::Mul(hn::Set(d, Precision<D>::kUnit), error)}, all.inside);
 }
 

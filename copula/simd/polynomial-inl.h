@@ -9,7 +9,7 @@
 #endif
 
 #include "copula/coefficients.hpp"
-#include "copula/simd/pack-inl.h"
+#include "copula/simd/rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sklar::simd::HWY_NAMESPACE::formulas {
@@ -34,7 +34,7 @@ template <class D>
 HWY_INLINE Vec<D> error_of_log_sum(D d, Vec<D> log_sum, Vec<D> mean_degree) {
   constexpr double kStep = HWY_NATIVE_FMA ? 0.5 : 1;
   const Vec<D> of_steps = hn::MulAdd(hn::Set(d, kStep + 0.5), mean_degree, hn::Set(d, kStep + 2));
-  return hn::MulAdd(hn::Set(d, 2.0), hn::Abs(log_sum), of_steps);
+  return hn::Add(error_of_log(d, log_sum), of_steps);
 }
 
 /// R at y = p/w, p >= 0, w > 0. Beyond scale y = 1 the leading power is taken out.
@@ -62,8 +62,12 @@ HWY_INLINE LogPolynomial<D> log_polynomial(D d, const Coefficients& r, Vec<D> p,
   const Vec<D> degree = hn::Set(d, static_cast<double>(n - 1));
   slope = hn::Div(hn::Mul(x, slope), sum);
   const Vec<D> log_sum = log(d, sum), log_leading = hn::IfThenElseZero(leads, hn::Mul(degree, log(d, x)));
-  const Vec<D> error = hn::NegMulAdd(hn::Set(d, 2.0), log_leading, error_of_log_sum(d, log_sum, slope));
-  return {hn::Sub(log_sum, log_leading), hn::IfThenElse(leads, hn::Sub(degree, slope), slope), error};
+  const Vec<D> log_r = hn::Sub(log_sum, log_leading), half = hn::Set(d, 0.5);
+  // degree log x: that of log x, and the product's.
+  const Vec<D> least = hn::Min(hn::Abs(log_leading), hn::Mul(degree, hn::Set(d, kLogPartError)));
+  const Vec<D> of_leading = hn::Sub(least, log_leading);
+  const Vec<D> error = hn::Add(hn::MulAdd(half, hn::Abs(log_r), of_leading), error_of_log_sum(d, log_sum, slope));
+  return {log_r, hn::IfThenElse(leads, hn::Sub(degree, slope), slope), error};
 }
 
 }  // namespace sklar::simd::HWY_NAMESPACE::formulas

@@ -37,12 +37,12 @@ class Product {
   }
 
   /// @param rest 1 - s.
-  /// @param near_one_below the w below which the sum of complements leaves the smaller error of x/w.
-  HWY_INLINE Parts<D> parts(D d, double s, double rest, double near_one_below) const {
+  /// @param of_x, of_w the relative errors of both, the smaller of which in x/w decides.
+  HWY_INLINE Parts<D> parts(D d, double s, double rest, Vec<D> of_x, Vec<D> of_w) const {
     const Vec<D> one = hn::Set(d, 1.0);
     const Vec<D> x = hn::Mul(hn::Set(d, s), value_.value());
     const Vec<D> w = hn::MulAdd(hn::Set(d, s), complement_, hn::Set(d, rest));
-    const auto near_one = hn::Lt(w, hn::Set(d, near_one_below));
+    const auto near_one = hn::Lt(hn::Mul(of_w, w), hn::Mul(of_x, x));
     return {hn::IfThenElse(near_one, hn::Sub(one, w), x), hn::IfThenElse(near_one, w, hn::Sub(one, x)), near_one};
   }
 
@@ -51,10 +51,21 @@ class Product {
   Vec<D> complement_;
 };
 
-/// The w at which both routes are as exact: of_w w = of_x x, the errors relative.
-constexpr double equal_errors_at(double of_x, double of_w) {
-  return of_x / (of_x + of_w);
-}
+/// A factor a = value + lost of a product with its relative error in units of 2^-52: as it is, of relative error of_a,
+/// or where that is below 1/2 from 1 - a of absolute error of_complement.
+template <class D>
+struct Factor {
+  HWY_INLINE Factor(D d, Vec<D> a, double of_a, Vec<D> complement, Vec<D> of_complement) {
+    const Vec<D> one = hn::Set(d, 1.0), rounded = hn::Sub(one, complement);
+    const auto near_one = hn::Lt(complement, hn::Set(d, 0.5));
+    value = hn::IfThenElse(near_one, rounded, a);
+    lost = hn::IfThenElseZero(near_one, hn::Sub(hn::Sub(one, rounded), complement));
+    const Vec<D> inverse = hn::MulAdd(hn::Set(d, 2.0), complement, one);  // at least 1 / (1 - complement)
+    error = hn::IfThenElse(near_one, hn::Mul(of_complement, inverse), hn::Set(d, of_a));
+  }
+
+  Vec<D> value, lost, error;
+};
 
 /// The relative error of x/w from those of x and of w where they are computed: dy/y = dx/(x w).
 template <class D>
@@ -133,8 +144,12 @@ HWY_INLINE Estimate<D> log_ratio_term(D d, const Coefficients& r, const Parts<D>
   const Vec<D> moved = hn::IfThenElse(parts.near_one, hn::Div(hn::Mul(derivative, of_w), parts.x),
                                       hn::Div(hn::Mul(derivative, of_x), parts.w));
   const Vec<D> rest = hn::Add(moved, hn::Set(d, r.relative_error / Precision<D>::kUnit));
-  const Vec<D> error = hn::MulAdd(hn::Set(d, 2.0), hn::Abs(log_w), polynomial.error);
-  return {hn::Sub(polynomial.log, log_w), hn::Add(error, rest)};
+  const Vec<D> size = hn::Abs(log_w), value = hn::Sub(polynomial.log, log_w);
+  const Vec<D> of_log_w = hn::MulAdd(hn::Set(d, 0.5), size, error_of_log(d, size));
+  // 1 - x or 1 - w is rounded.
+  const Vec<D> of_difference = hn::Add(polynomial.slope, hn::Set(d, 1.0));
+  const Vec<D> rounding = hn::MulAdd(hn::Set(d, 0.5), hn::Add(hn::Abs(value), of_difference), of_log_w);
+  return {value, hn::Add(hn::Add(polynomial.error, rounding), rest)};
 }
 
 }  // namespace sklar::simd::HWY_NAMESPACE::formulas

@@ -70,6 +70,16 @@ class Columns {
   Index stride_, size_;
 };
 
+/// Of log x = log m + k log 2, sqrt(1/2) <= m < sqrt(2): its last rounding, half a unit, and what log m is off by
+/// before it, 0.11 and half of |log m| <= 0.35. log1p x rounds 1 + x once more. In double; relative to log x it is at
+/// most 1.4.
+constexpr double kLogPartError = 0.3, kLog1pPartError = 0.5;
+template <class D>
+HWY_INLINE Vec<D> error_of_log(D d, Vec<D> log_x) {
+  const Vec<D> size = hn::Abs(log_x);
+  return hn::MulAdd(hn::Set(d, 0.5), size, hn::Min(size, hn::Set(d, kLogPartError)));
+}
+
 /// A result with a bound of its absolute error.
 template <class D>
 struct Estimate {

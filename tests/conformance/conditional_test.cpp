@@ -9,7 +9,7 @@ namespace {
 
 SKLAR_FAMILY_SUITE(Conditional);
 
-constexpr double kProbability = 2e-13;  // h and 1 - h, each within 8e-14
+constexpr double kProbability = 2e-13;  // h and 1 - h, each within 9.5e-14
 
 TEST_P(Conditional, ComplementsAddUpToOne) {
   Rng rng(seed_of_this_test());
