@@ -26,10 +26,14 @@ double Brdf::pdf(const Vec3& wo, const Vec3& wi) const {
 }
 
 Sample Brdf::sample(const Vec3& wo, const Vec2& uniforms) const {
-  const Vec3 wi = sample_direction(wo, uniforms);
-  const double density = pdf(wo, wi);
+  const auto [wi, density] = draw(wo, uniforms);
   if (!(density > 0)) return {wi, density, Rgb::Zero()};
   return {wi, density, eval(wo, wi) * (wi.z() / density)};
+}
+
+Brdf::Draw Brdf::draw(const Vec3& wo, const Vec2& uniforms) const {
+  const Vec3 wi = sample_direction(wo, uniforms);
+  return {wi, pdf(wo, wi)};
 }
 
 Vec3 Brdf::sample_direction(const Vec3& /*wo*/, const Vec2& uniforms) const {

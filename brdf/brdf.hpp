@@ -62,6 +62,15 @@ class Brdf {
   /// The direction drawn by sample. Default: cosine hemisphere.
   [[nodiscard]] virtual Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const;
 
+  struct Draw {
+    Vec3 wi;
+    double pdf;  ///< pdf(wo, wi)
+  };
+
+  /// What sample needs of the sampler, for those that have the density of a draw cheaper than from its direction alone.
+  /// Default: the two calls.
+  [[nodiscard]] virtual Draw draw(const Vec3& wo, const Vec2& uniforms) const;
+
  private:
   [[nodiscard]] RgbRows eval_rows(const DirectionsRef& wo, const DirectionsRef& wi) const;
 };

@@ -15,7 +15,7 @@ allowed() {
   core='copula/[^/]*'
   root='copula/.*|families/.*|brdf/[^/]*'
   data="$root|brdf/(geometry|data)/.*"
-  render="$data|brdf/(model|analytic|basis|render)/.*"
+  render="$data|brdf/(model|analytic|basis|sampling|render)/.*"
   case $1 in
     copula) echo "$core" ;;
     copula/symbolic | copula/simd) echo "$core|$1/.*" ;;
@@ -25,6 +25,7 @@ allowed() {
     brdf/geometry) echo "$root|$1/.*" ;;
     brdf/data) echo "$data" ;;
     brdf/model | brdf/analytic | brdf/basis) echo "$data|$1/.*" ;;
+    brdf/sampling) echo "$data|$1/.*" ;;
     brdf/render) echo "$render" ;;
     brdf/study) echo "$render|brdf/study/.*" ;;
     *) complain "$1: no rule says what it may include" >&2 ;;

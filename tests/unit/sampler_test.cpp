@@ -1,0 +1,349 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+
+#include "brdf/analytic/ggx.hpp"
+#include "brdf/analytic/lambert.hpp"
+#include "brdf/analytic/sum.hpp"
+#include "brdf/analytic/synthetic.hpp"
+#include "brdf/data/material.hpp"
+#include "brdf/data/table_brdf.hpp"
+#include "brdf/model/paper_fit.hpp"
+#include "brdf/model/refined_fit.hpp"
+#include "brdf/render/hemisphere.hpp"
+#include "brdf/sampling/paper_sampler.hpp"
+#include "brdf/sampling/sampled_brdf.hpp"
+#include "brdf/sampling/sampler_copula.hpp"
+#include "brdf/study/efficiency.hpp"
+#include "families/registry.hpp"
+#include "tests/support/function_brdf.hpp"
+#include "tests/support/instruction_sets.hpp"
+#include "tests/support/sampler_check.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr std::size_t kMostBytes = 16384;
+
+const MeasuredTable& builtin() {
+  static const MeasuredTable kTable = builtin_material();
+  return kTable;
+}
+
+struct Kind {
+  std::string name;
+  std::function<BrdfPtr()> make;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> kList = {
+      {"paper", [] { return BrdfPtr(fit_paper(builtin(), families::find("frank"), {.slices = 2}).brdf); }},
+      {"refined",
+       [] {
+         const RefinedStructure structure{.components = 2, .half = 10, .difference = 6};
+         return BrdfPtr(fit_refined(builtin(), {.structure = structure, .evaluations = 40}).brdf);
+       }},
+      {"table", [] { return std::make_shared<const TableBrdf>(std::make_shared<const MeasuredTable>(builtin())); }},
+      {"lambert", [] { return std::make_shared<const Lambert>(Rgb(0.2, 0.5, 0.8)); }},
+      {"rough", [] { return std::make_shared<const Ggx>(Rgb(0.9, 0.6, 0.3), 0.5); }},
+      {"glossy",
+       [] {
+         return with_diffuse({0.1, 0.1, 0.3}, std::make_shared<const Ggx>(Rgb(0.04, 0.04, 0.04), 0.1), {0.1, 0.1, 0.1});
+       }},
+      {"black", [] { return std::make_shared<const Lambert>(Rgb(0, 0, 0)); }},
+      {"brushed", [] { return brushed_metal(); }},
+  };
+  return kList;
+}
+
+/// One sampler a kind, made once.
+const SampledBrdf& sampled(std::size_t kind) {
+  static std::vector<std::unique_ptr<SampledBrdf>> made(kinds().size());
+  if (!made[kind]) made[kind] = std::make_unique<SampledBrdf>(kinds()[kind].make());
+  return *made[kind];
+}
+
+const std::vector<Vec3>& given_directions() {
+  static const auto kList = [] {
+    std::vector<Vec3> result;
+    for (const auto& [theta, phi] : {std::pair(0.0, 0.0),
+                                     {3.0, 200.0},
+                                     {20.0, 0.0},
+                                     {45.0, 100.0},
+                                     {62.0, 30.0},
+                                     {75.0, 300.0},
+                                     {85.0, 170.0},
+                                     {89.9, 45.0}}) {
+      result.push_back(spherical_direction(theta * kDegree, phi * kDegree));
+    }
+    return result;
+  }();
+  return kList;
+}
+
+class SampledKind : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(All, SampledKind, testing::Range(std::size_t{0}, kinds().size()),
+                         [](const auto& test) { return kinds()[test.param].name; });
+
+// Chi-square against pdf, no draw where it is 0, weights, and albedo by both kinds of draws.
+TEST_P(SampledKind, DrawsFollowTheDensity) {
+  const auto tests = static_cast<int>(kinds().size() * given_directions().size());
+  for (const Vec3& wo : given_directions()) {
+    test::check_sampler(sampled(GetParam()), wo, test::seed_of_this_test(),
+                        {.draws = test::sampler_draws() / 5,
+                         .theta_cells = 16,
+                         .phi_cells = 32,
+                         .tests = tests,
+                         .mass_tolerance = 3e-5});
+  }
+}
+
+// No draw is lost below the horizon: the density integrates to 1, to the error of the quadrature at its knots.
+TEST_P(SampledKind, TheDensityIntegratesToOne) {
+  constexpr double kKnots = 4e-3;
+  const SampledBrdf& brdf = sampled(GetParam());
+  for (const double theta_o : {0.0, 5.0, 30.0, 60.0, 75.0, 85.0}) {
+    const HemisphereNodes nodes = hemisphere_nodes(theta_o * kDegree, {.polar = 200, .azimuth = 200});
+    const Vec3 wo = spherical_direction(theta_o * kDegree, 0);
+    double sum = 0;
+    for (Eigen::Index i = 0; i < nodes.wi.rows(); ++i) {
+      const Vec3 wi = nodes.wi.row(i).transpose();
+      sum += brdf.pdf(wo, wi) * nodes.weight(i) / wi.z();
+    }
+    EXPECT_NEAR(sum, 1, kKnots) << theta_o;
+  }
+}
+
+TEST_P(SampledKind, IsFiniteAndCoversTheHemisphereEverywhere) {
+  const SampledBrdf& brdf = sampled(GetParam());
+  Rng rng(test::seed_of_this_test());
+  const double turned = 33 * kDegree;
+  for (const double theta_o : {0.0, 1e-9, 1e-4, 45.0, 89.0, 89.99, 90 - 1e-7, 90 - 1e-11}) {
+    const Vec3 wo = spherical_direction(theta_o * kDegree, turned);
+    for (int n = 0; n < 4000; ++n) {
+      const Vec2 uniforms = n == 0   ? Vec2(1e-16, 1e-16)
+                            : n == 1 ? Vec2(1 - 0x1p-53, 1 - 0x1p-53)
+                            : n == 2 ? Vec2(1 - 0x1p-53, 0.5)
+                                     : Vec2(uniform(rng), uniform(rng));
+      const Sample draw = brdf.sample(wo, uniforms);
+      ASSERT_TRUE(draw.wi.allFinite()) << theta_o << " | " << uniforms.transpose();
+      ASSERT_NEAR(draw.wi.norm(), 1, 1e-9) << theta_o << " | " << uniforms.transpose();
+      ASSERT_TRUE(std::isfinite(draw.pdf) && draw.pdf >= 0) << theta_o << " | " << uniforms.transpose();
+      ASSERT_TRUE(draw.weight.isFinite().all() && (draw.weight >= 0).all()) << theta_o;
+      ASSERT_EQ(draw.pdf, brdf.pdf(wo, draw.wi));
+      const Vec3 wi = test::uniform_hemisphere(rng);
+      ASSERT_GE(brdf.pdf(wo, wi), ConditionalSampler::kCosineShare * wi.z() * std::numbers::inv_pi) << theta_o;
+      ASSERT_EQ(brdf.pdf(wo, Vec3(wi.x(), wi.y(), -wi.z())), 0);
+    }
+  }
+  const Vec3 below = spherical_direction(120 * kDegree, 0);
+  const Sample draw = brdf.sample(below, {0.3, 0.6});
+  EXPECT_EQ(draw.pdf, 0);
+  EXPECT_TRUE(draw.wi.allFinite() && (draw.weight == 0).all());
+}
+
+// The density does not jump between nodes of theta_o, knots, or where the plane of incidence loses its meaning.
+TEST_P(SampledKind, TheDensityIsContinuous) {
+  constexpr double kStep = 1e-7, kChange = 1e-3;  // relative change for a step of that angle, both directions
+  const SampledBrdf& brdf = sampled(GetParam());
+  Rng rng(test::seed_of_this_test());
+  double worst = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const double theta_o = 85 * kDegree * (n % 5 == 0 ? 1e-6 : 1) * uniform(rng);
+    const Vec3 wo = spherical_direction(theta_o, 1), near = spherical_direction(theta_o + kStep, 1);
+    const Vec3 wi = test::uniform_hemisphere(rng);
+    if (wi.z() < 0.02) continue;
+    const Eigen::AngleAxisd turn(kStep, Vec3(uniform(rng), uniform(rng), uniform(rng)).normalized());
+    worst = std::max(worst, std::abs(brdf.pdf(near, turn * wi) / brdf.pdf(wo, wi) - 1));
+  }
+  EXPECT_LT(worst, kChange);
+}
+
+TEST_P(SampledKind, IsDeterministicAndSmall) {
+  const SampledBrdf& brdf = sampled(GetParam());
+  EXPECT_LE(brdf.sampler().bytes(), kMostBytes);
+  EXPECT_EQ(brdf.bytes(), brdf.brdf()->bytes() + brdf.sampler().bytes());
+  const SampledBrdf again(brdf.brdf());
+  Rng rng(test::seed_of_this_test());
+  for (int n = 0; n < 1000; ++n) {
+    const Vec3 wo = test::uniform_hemisphere(rng);
+    const Vec2 uniforms(uniform(rng), uniform(rng));
+    const Sample a = brdf.sample(wo, uniforms), b = again.sample(wo, uniforms);
+    ASSERT_TRUE(a.wi == b.wi && a.pdf == b.pdf && (a.weight == b.weight).all());
+  }
+}
+
+// Draws and densities of each instruction set agree with those of the widest, and a draw has the density of its
+// direction.
+TEST_P(SampledKind, DrawsAlikeInEveryInstructionSet) {
+  constexpr double kDirection = 1e-3, kDensity = 2e-5;  ///< apart; relative. A cell of the tables can be the next one
+  const ConditionalSampler& sampler = sampled(GetParam()).sampler();
+  constexpr int kDraws = 2000;
+  Rng rng(test::seed_of_this_test());
+  std::vector<Vec3> wo, wi;
+  std::vector<Vec2> uniforms;
+  std::vector<double> pdf;
+  for (int n = 0; n < kDraws; ++n) {
+    wo.push_back(test::uniform_hemisphere(rng));
+    uniforms.emplace_back(uniform(rng), uniform(rng));
+    wi.push_back(sampler.sample_direction(wo.back(), uniforms.back()));
+    pdf.push_back(sampler.pdf(wo.back(), wi.back()));
+  }
+  test::for_each_target([&] {
+    for (std::size_t n = 0; n < wo.size(); ++n) {
+      const SamplerDraw draw = sampler.draw(wo[n], uniforms[n]);
+      ASSERT_EQ(draw.wi, sampler.sample_direction(wo[n], uniforms[n]));
+      ASSERT_EQ(draw.pdf, sampler.pdf(wo[n], draw.wi));
+      ASSERT_LT((draw.wi - wi[n]).norm(), kDirection) << wo[n].transpose() << " | " << uniforms[n].transpose();
+      ASSERT_NEAR(sampler.pdf(wo[n], wi[n]) / pdf[n], 1, kDensity) << wo[n].transpose() << " | " << wi[n].transpose();
+    }
+  });
+}
+
+TEST(ConditionalSampler, FollowsWhatItIsMadeOf) {
+  for (const double alpha : {1e-4, 0.03, 0.4}) {
+    const SampledBrdf brdf(std::make_shared<const Ggx>(Rgb(0.9, 0.9, 0.9), alpha));
+    for (const double theta_o : {5, 45, 75})
+      EXPECT_LT(weight_deviation(brdf, theta_o * kDegree), 0.2) << alpha << " " << theta_o;
+  }
+  const SampledBrdf white(std::make_shared<const Lambert>(Rgb(1, 1, 1)));
+  for (const double theta_o : {5, 45, 75, 85}) EXPECT_LT(weight_deviation(white, theta_o * kDegree), 0.04) << theta_o;
+}
+
+TEST(ConditionalSampler, FollowsMeasuredMaterials) {
+  constexpr double kMost = 0.25;
+  const char* data = std::getenv("SKLAR_TEST_DATA");
+  if (data == nullptr) GTEST_SKIP() << "SKLAR_TEST_DATA is not set: no measured materials to read";
+  for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(data) / "materials" / "rgl")) {
+    const SampledBrdf brdf(read_material_brdf(file.path()));
+    for (const double degrees : {5, 20, 45, 60, 75, 80}) {
+      const double ours = weight_deviation(brdf, degrees * kDegree);
+      const double cosine = weight_deviation(*brdf.brdf(), degrees * kDegree);  // the default sampler's
+      EXPECT_LE(ours, kMost) << file.path() << " at " << degrees;
+      EXPECT_LE(ours, cosine) << file.path() << " at " << degrees;
+    }
+  }
+}
+
+// A Fibonacci lattice in place of random uniforms has an error far below that of as many random draws.
+TEST(ConditionalSampler, TakesUniformsThatAreNotRandom) {
+  constexpr int kPoints = 4181, kStep = 2584;
+  const SampledBrdf& brdf = sampled(4);
+  const Vec3 wo = spherical_direction(40 * kDegree, 0);
+  Rgb lattice = Rgb::Zero();
+  for (int i = 0; i < kPoints; ++i) {
+    const double second = (i * kStep % kPoints + 0.5) / kPoints;
+    lattice += brdf.sample(wo, {(i + 0.5) / kPoints, second}).weight / kPoints;
+  }
+  const HemisphereNodes nodes = hemisphere_nodes(40 * kDegree, {.polar = 160, .azimuth = 160});
+  Rgb albedo = Rgb::Zero();
+  for (Eigen::Index i = 0; i < nodes.wi.rows(); ++i) {
+    albedo += brdf.eval(wo, Vec3(nodes.wi.row(i).transpose())) * nodes.weight(i);
+  }
+  const double random = weight_deviation(brdf, 40 * kDegree) / std::sqrt(kPoints);
+  EXPECT_LT(std::abs(lattice[1] / albedo[1] - 1), random / 3);
+}
+
+TEST(ConditionalSampler, RefusesNothing) {
+  EXPECT_THROW(SampledBrdf(nullptr), std::invalid_argument);
+}
+
+// The sampler's own forms against the library's copula, whose last coordinate is the conditioned one.
+TEST(SamplerCopula, IsAliMikhailHaq) {
+  constexpr double kRounding = 1e-11;  ///< relative; 1 - u loses digits of what the library keeps
+  for (const double theta : {sampler_copula::kLowestDependence, -0.3, 0.0, 0.5, sampler_copula::kHighestDependence}) {
+    const CopulaPtr copula = families::find("amh").make(2, {theta});
+    for (const double v : {0.001, 0.2, 0.7, 0.999}) {
+      for (const double u : {0.001, 0.1, 0.5, 0.99}) {
+        const double top = u + 0.6 * (1 - u), z = 1 - v;
+        const Points at{{v, u}}, at_top{{v, top}};
+        const double p = sampler_copula::conditional(theta, u, 1 - u, z);
+        EXPECT_NEAR(p / copula->h(at)(0), 1, kRounding) << theta << " " << v << " " << u;
+        EXPECT_NEAR(sampler_copula::conditional_inverse(theta, z, p) / u, 1, 1e3 * kRounding);
+        const double share = p / sampler_copula::conditional(theta, top, 1 - top, z);
+        EXPECT_NEAR(sampler_copula::truncated_inverse(theta, top, z, share) / u, 1, 1e3 * kRounding);
+        EXPECT_NEAR(sampler_copula::truncated_density(theta, 1 - u, top, 1 - top, z) * copula->h(at_top)(0) /
+                        copula->pdf(at)(0),
+                    1, kRounding);
+      }
+    }
+  }
+}
+
+// The paper's sampler: draws by the closed-form inverses follow the density, in three coordinates (a quadratic) and in
+// four (a quadratic, then a cubic).
+TEST(PaperSampler, DrawsFollowTheDensity) {
+  const BrdfPtr material = kinds()[4].make();
+  const FamilyInfo& frank = families::find("frank");
+  for (const PaperCoordinates coordinates : {PaperCoordinates::isotropic, PaperCoordinates::full}) {
+    const PaperSampledBrdf brdf(material, frank, PaperTarget::reflected_light, coordinates);
+    const auto tests = static_cast<int>(2 * given_directions().size());
+    for (const Vec3& wo : given_directions()) {
+      test::check_sampler(brdf, wo, test::seed_of_this_test(),
+                          {.draws = test::sampler_draws() / 50,
+                           .theta_cells = 9,
+                           .phi_cells = 24,
+                           .tests = tests,
+                           .mass_tolerance = 5e-5});
+    }
+  }
+}
+
+// Eq. 24 with its K: where the reflectance is the density of the copula itself, f_r cos / pdf is K h cos sin.
+TEST(PaperSampler, TheWeightIsThatOfEquation24) {
+  constexpr double kRounding = 1e-11;  ///< relative, of logs up to 10 and a copula's density
+  const BrdfPtr material = kinds()[4].make();
+  Rng rng(test::seed_of_this_test());
+  for (const PaperCoordinates coordinates : {PaperCoordinates::isotropic, PaperCoordinates::full}) {
+    const PaperSampledBrdf brdf(material, families::find("frank"), PaperTarget::reflectance, coordinates);
+    EXPECT_NE(brdf.theta()[0], 0);
+    for (int n = 0; n < 1000; ++n) {
+      const Vec3 wo = test::uniform_hemisphere(rng);
+      const Vec3 wi = brdf.sample(wo, {uniform(rng), 0.5}).wi;
+      EXPECT_NEAR(brdf.modelled(wo, wi) * wi.z() / brdf.pdf(wo, wi) / brdf.printed_weight(wo, wi), 1, kRounding);
+    }
+  }
+}
+
+TEST(PaperSampler, TheCosineInTheTargetLowersTheVariance) {
+  const BrdfPtr material = kinds()[3].make();
+  const FamilyInfo& frank = families::find("frank");
+  const PaperSampledBrdf printed(material, frank, PaperTarget::reflectance);
+  const PaperSampledBrdf corrected(material, frank, PaperTarget::reflected_light);
+  for (const double theta_o : {5, 45, 75}) {
+    EXPECT_LT(weight_deviation(corrected, theta_o * kDegree), 0.1) << theta_o;
+    EXPECT_GT(weight_deviation(printed, theta_o * kDegree), 0.3) << theta_o;
+  }
+}
+
+TEST(PaperSampler, RefusesWhatItCannotSample) {
+  const FamilyInfo& frank = families::find("frank");
+  EXPECT_THROW(PaperSampledBrdf(nullptr, frank, PaperTarget::reflectance), std::invalid_argument);
+  EXPECT_THROW(PaperSampledBrdf(brushed_metal(), frank, PaperTarget::reflectance), std::invalid_argument);
+}
+
+TEST(SamplingEfficiency, ComparesSamplers) {
+  const auto rows = sampling_efficiency("glossy", kinds()[5].make());
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[0].sampler, "conditional");
+  EXPECT_EQ(rows[1].sampler, "cosine");
+  EXPECT_EQ(rows[2].sampler, "ggx");
+  for (std::size_t i = 0; i < kEfficiencyAngles.size(); ++i) {
+    EXPECT_LT(rows[0].deviation[i], rows[1].deviation[i]);
+    EXPECT_LT(rows[2].deviation[i], rows[1].deviation[i]);
+    for (const SamplerEfficiency& row : rows) EXPECT_GT(row.deviation[i], 0) << row.sampler;
+  }
+  const std::string csv = efficiency_csv(rows);
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "material,sampler,theta_5,theta_20,theta_45,theta_60,theta_75,theta_80");
+  EXPECT_NE(efficiency_markdown(rows).find("| glossy | paper-eq24 |"), std::string::npos);
+  EXPECT_THROW((void)sampling_efficiency("brushed", brushed_metal()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sklar::brdf
