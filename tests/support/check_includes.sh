@@ -49,7 +49,7 @@ for family in $(sed -n '/^set(families/,/^)/p' families/CMakeLists.txt | grep -o
   done
 done
 
-for library in nlopt 'OpenEXR|Imf|Imath' 'png\.h' cairo; do
+for library in nlopt 'OpenEXR|Imf|Imath' 'png\.h' cairo embree; do
   files=$(grep -rlE --include='*.[ch]pp' "^ *#include [<\"]($library)" copula families brdf || true)
   [ "$(echo "$files" | wc -w)" -le 1 ] || complain "more than one file includes $library: $files"
   case $files in *.hpp) complain "a header includes $library: $files" ;; esac
