@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they stand in memory");
 
-constexpr std::uint8_t kRefined = 2, kAnisotropic = 3;
+constexpr std::uint8_t kRefined = 2, kAnisotropic = 3, kRefinedOnPart = 4;
 
 class Writer {
  public:
@@ -140,19 +140,29 @@ void write_refined(const RefinedBrdf& brdf, Writer& writer) {
   writer.number(static_cast<std::uint8_t>(names.size()));
   for (const std::string& name : names) writer.text(name);
   write_counts(brdf.structure(), writer);
+  if (!is_whole(brdf.structure())) {
+    for_each_range(brdf.structure(), [&](const char*, const AxisRange& range) {
+      for (const int end : {range.low, range.high}) writer.number(static_cast<std::uint8_t>(end));
+    });
+  }
   writer.number(static_cast<float>(brdf.structure().width));
   write_ranges(brdf.coefficients(), writer);
   writer.raw(indices);
   writer.levels(brdf.layout().runs(brdf.coefficients().bits), brdf.coefficients().levels);
 }
 
-std::shared_ptr<const RefinedBrdf> read_refined(Reader& reader) {
+std::shared_ptr<const RefinedBrdf> read_refined(Reader& reader, bool on_part) {
   std::vector<FamilyInfo> named;
   for (int left = reader.number<std::uint8_t>(); left > 0; --left) {
     const std::string name = reader.text();
     named.push_back(name.starts_with('{') ? families::from_definition(name, "family") : families::find(name));
   }
   auto structure = read_counts<RefinedStructure>(reader);
+  if (on_part) {
+    for_each_range(structure, [&](const char*, AxisRange& range) {
+      for (int* end : {&range.low, &range.high}) *end = reader.number<std::uint8_t>();
+    });
+  }
   structure.width = decimal(reader.number<float>());
   require_structure(structure);
   PackedCoefficients packed = read_ranges("refined model", reader);
@@ -197,12 +207,12 @@ StoredBrdf read(Reader& reader) {
     throw std::invalid_argument("has provenance " + std::to_string(provenance) + ", allowed are 0 to 3");
   }
   StoredBrdf stored{.material = reader.text(), .provenance = static_cast<Provenance>(provenance), .model = {}};
-  if (mode == kRefined) {
-    stored.model = read_refined(reader);
+  if (mode == kRefined || mode == kRefinedOnPart) {
+    stored.model = read_refined(reader, mode == kRefinedOnPart);
   } else if (mode == kAnisotropic) {
     stored.model = read_anisotropic(reader);
   } else {
-    throw std::invalid_argument("has mode " + std::to_string(mode) + ", allowed are 2 and 3");
+    throw std::invalid_argument("has mode " + std::to_string(mode) + ", allowed are 2 to 4");
   }
   reader.require_end();
   return stored;
@@ -219,7 +229,7 @@ std::string to_binary(const StoredBrdf& model) {
   Writer writer;
   writer.raw(kBinaryMagic);
   writer.number(static_cast<std::uint8_t>(kBinaryVersion));
-  writer.number(refined != nullptr ? kRefined : kAnisotropic);
+  writer.number(refined == nullptr ? kAnisotropic : is_whole((*refined)->structure()) ? kRefined : kRefinedOnPart);
   writer.number(static_cast<std::uint8_t>(model.provenance));
   writer.text(model.material);
   if (refined != nullptr) {

@@ -17,6 +17,7 @@ namespace {
 using json::Json;
 
 constexpr std::string_view kFormat = "sklar brdf";
+constexpr int kVersionOfRanges = 4;
 constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 constexpr std::array<const char*, 3> kAxes = {"theta_h", "theta_d", "phi_d"};
 
@@ -109,11 +110,22 @@ void write_packed(const PackedCoefficients& packed, Json& json) {
   json["levels"] = packed.levels;
 }
 
+AxisRange range_from(const Json& json, const char* name) {
+  const Json& ends = json::array(json, name);
+  if (ends.size() != 2 || !ends[0].is_number_integer() || !ends[1].is_number_integer()) {
+    throw std::invalid_argument("field '" + std::string(name) + "' must be two whole numbers, found " + ends.dump());
+  }
+  return {ends[0].get<int>(), ends[1].get<int>()};
+}
+
 std::shared_ptr<const RefinedBrdf> refined_from(const Json& json) {
   RefinedStructure structure;
   const Json& sizes = json::field(json, "structure");
   for_each_count(structure, [&](const char* name, int& count) { count = json::integer(sizes, name); });
   structure.width = json::number(sizes, "width");
+  for_each_range(structure, [&](const char* name, AxisRange& range) {
+    if (sizes.contains(name)) range = range_from(sizes, name);
+  });
   std::vector<FamilyInfo> families;
   for (const Json& family : json::array(json, "families")) families.push_back(family_from(family));
   auto packed = packed_from(json);
@@ -124,6 +136,12 @@ void write_refined(const RefinedBrdf& brdf, Json& json) {
   Json& sizes = json["structure"] = Json::object();
   for_each_count(brdf.structure(), [&](const char* name, int count) { sizes[name] = count; });
   sizes["width"] = brdf.structure().width;
+  if (!is_whole(brdf.structure())) {
+    for_each_range(brdf.structure(), [&](const char* name, const AxisRange& range) {
+      sizes[name] = {range.low, range.high};
+    });
+    json["version"] = kVersionOfRanges;
+  }
   json["families"] = Json::array();
   for (const FamilyInfo& family : brdf.families()) {
     json["families"].push_back(family_to_json(family.name, family.definition));

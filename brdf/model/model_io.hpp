@@ -30,14 +30,15 @@ struct StoredBrdf {
 };
 
 /// The newest version written and read.
-inline constexpr int kBrdfModelVersion = 3;
+inline constexpr int kBrdfModelVersion = 4;
 
 /// {"format": "sklar brdf", "version", "mode", "material", "provenance", ..}. Version 1, mode "paper": "family",
 /// "method", "measure", "red": [slices], "green", "blue" with slices {"theta": [..], "scale", "theta_h": [masses],
 /// "theta_d", "phi_d"}. Version 2, mode "refined": "structure" with the fields of RefinedStructure, "families" one a
 /// component, "bits", and "lowest", "step" and "levels" of PackedCoefficients. Version 3, mode "anisotropic":
 /// "structure" with the fields of AnisotropicStructure, "bits", "lowest", "step" and "levels"
-/// likewise. A family is a name, or the whole definition of a family given as a formula, so that the
+/// likewise. Version 4 is version 2 with "half_range" and "difference_range" in the structure, two whole numbers of
+/// 64ths each. A family is a name, or the whole definition of a family given as a formula, so that the
 /// model stands alone.
 [[nodiscard]] std::string to_json(const StoredBrdf& model);
 

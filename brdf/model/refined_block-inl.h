@@ -211,7 +211,7 @@ struct Block {
   HWY_ALIGN int half_node[kBlock], difference_node[kBlock], azimuth_node[kBlock];
   Four corners;  // weights of the nodes: both of half at the first of difference, at the second
   HWY_ALIGN float next[kBlock], azimuth_next[kBlock];  // shares of the second nodes of difference and of azimuth
-  HWY_ALIGN float azimuth[kBlock], azimuth2[kBlock];   // and its square
+  HWY_ALIGN float azimuth[kBlock], product[kBlock], square[kBlock];  // z, z (z - 1/2), (z - 1/2)^2 of azimuth z
 
   /// The rows from i on, as many as there are lanes.
   template <class Tag>
@@ -223,17 +223,29 @@ struct Block {
     const Numbers inverse = hn::Div(one, hn::MulAdd(hn::MulAdd(s.z, root, s.square), width, s.across));
     const Numbers share = hn::Mul(hn::Mul(s.across, hn::Add(one, width)), inverse);
     const Numbers above = hn::Mul(hn::Mul(width, s.z), hn::Mul(hn::Add(root, s.z), inverse));  // 1 - share
-    const Numbers at_half = hn::Sqrt(hn::Sqrt(share));
+    Numbers at_half = hn::Sqrt(hn::Sqrt(share));
     // Towards half = 1, where a model is steepest, what is lost in rounding it: (share - half^4) / 4.
     const Numbers below_one = hn::Mul(hn::Sub(one, at_half), hn::Add(one, at_half));
-    const Numbers lost = hn::Mul(quarter, hn::Sub(hn::MulAdd(below_one, hn::Mul(at_half, at_half), below_one), above));
+    Numbers lost = hn::Mul(quarter, hn::Sub(hn::MulAdd(below_one, hn::Mul(at_half, at_half), below_one), above));
     const Numbers left = hn::Div(hn::Mul(quarter, s.square), hn::Add(one, hn::Sqrt(sin2_d)));
     const Numbers reach = hn::MulAdd(s.across, sin2_d, hn::Mul(hn::Set(d, static_cast<float>(kPole)), s.square));
     const Numbers fall = hn::Mul(quarter, hn::Mul(hn::Mul(s.rise, s.rise), s.square));
-    place(d, t, i, at_half, lost, hn::Max(hn::Zero(d), hn::Sub(one, hn::Sqrt(left))), hn::Div(fall, reach));
+    Numbers at_difference = hn::Max(hn::Zero(d), hn::Sub(one, hn::Sqrt(left)));
+    if (t.on_part) {
+      at_half = on_axis(d, t.half_axis, at_half);
+      at_difference = on_axis(d, t.difference_axis, at_difference);
+      lost = hn::Mul(hn::Set(d, t.half_axis.stretch), lost);
+    }
+    place(d, t, i, at_half, lost, at_difference, hn::Div(fall, reach));
   }
 
  private:
+  template <class Tag, class Numbers = hn::Vec<Tag>>
+  static HWY_INLINE Numbers on_axis(Tag d, const PlacedAxis& axis, Numbers x) {
+    const Numbers placed = hn::MulSub(x, hn::Set(d, axis.stretch), hn::Set(d, axis.low));
+    return hn::Max(hn::Zero(d), hn::Min(placed, hn::Set(d, 1.0F)));
+  }
+
   template <class Tag, class Numbers = hn::Vec<Tag>>
   HWY_INLINE void place(Tag d, const RefinedTables& t, std::ptrdiff_t i, Numbers at_half, Numbers lost,
                         Numbers at_difference, Numbers at_azimuth) {
@@ -247,7 +259,9 @@ struct Block {
     corners.store(d, i, hn::Mul(p0, h0), hn::Mul(p0, h.share), hn::Mul(p.share, h0), hn::Mul(p.share, h.share));
     hn::StoreU(p.share, d, next + i);
     hn::StoreU(at_azimuth, d, azimuth + i);
-    hn::StoreU(hn::Mul(at_azimuth, at_azimuth), d, azimuth2 + i);
+    const Numbers from_middle = hn::Sub(at_azimuth, hn::Set(d, 0.5F));
+    hn::StoreU(hn::Mul(at_azimuth, from_middle), d, product + i);
+    hn::StoreU(hn::Mul(from_middle, from_middle), d, square + i);
     if (t.coupling.empty()) return;
     const Node<Tag> a(d, at_azimuth, Lattice::azimuth);
     hn::StoreU(a.first, whole, azimuth_node + i);

@@ -53,7 +53,10 @@ RefinedBrdf::RefinedBrdf(const RefinedStructure& structure, std::vector<FamilyIn
       tables_{.half = structure.half,
               .difference = structure.difference,
               .powers_pairs = (structure.azimuth + 1) / 2,
-              .width = static_cast<float>(structure.width)} {
+              .width = static_cast<float>(structure.width),
+              .on_part = !is_whole(structure),
+              .half_axis = PlacedAxis(structure.half_range),
+              .difference_axis = PlacedAxis(structure.difference_range)} {
   if (families_.size() != static_cast<std::size_t>(structure.components)) {
     throw std::invalid_argument("refined model: " + std::to_string(families_.size()) + " families for " +
                                 std::to_string(structure.components) + " components");
@@ -104,7 +107,7 @@ void RefinedBrdf::expand_component(int component) {
 
   const std::vector<double> azimuth = part(component, RefinedPart::azimuth);
   Matrix powers = Matrix::Zero(even_azimuth(), Lattice::difference);
-  powers.topRows(structure_.azimuth) = bernstein_powers(structure_.azimuth) *
+  powers.topRows(structure_.azimuth) = azimuth_powers(structure_.azimuth) *
                                        MatrixIn(azimuth.data(), structure_.azimuth, structure_.azimuth_difference) *
                                        spline_basis(difference, structure_.azimuth_difference).transpose();
   interleave(powers, k, kMost, tables_.powers);
@@ -160,14 +163,15 @@ void RefinedBrdf::eval_batch(const DirectionsRef& wo, const DirectionsRef& wi, E
                    out.outerStride());
 }
 
-std::size_t refined_bytes(const RefinedLayout& layout, int bits) {
-  constexpr std::size_t kStructure = 8 + sizeof(float) + 1;  // eight counts, the width, the bits
+std::size_t refined_bytes(const RefinedStructure& structure, const RefinedLayout& layout, int bits) {
+  constexpr std::size_t kStructure = 8 + sizeof(float) + 1;  // eight counts, the width, the bits; then four ends
   constexpr std::size_t kRanges = 2 * sizeof(float) * kRefinedParts.size();
-  return kStructure + kRanges + static_cast<std::size_t>(layout.components()) + packed_bytes(layout.runs(bits));
+  return kStructure + (is_whole(structure) ? 0 : 4) + kRanges + static_cast<std::size_t>(layout.components()) +
+         packed_bytes(layout.runs(bits));
 }
 
 std::size_t RefinedBrdf::bytes() const {
-  return refined_bytes(layout_, packed_.bits);
+  return refined_bytes(structure_, layout_, packed_.bits);
 }
 
 std::size_t RefinedBrdf::expanded_bytes() const {
@@ -188,10 +192,10 @@ Rgb RefinedBrdf::at(const Warped& w) const {
     double log_green = tensor(part(k, RefinedPart::shape), structure_.half, half, difference);
     double azimuth = 0;
     for (int m = structure_.azimuth; m-- > 0;) {
+      azimuth *= w.azimuth - 0.5;
       azimuth += mixed(p, [&](int row) { return entry(tables_.powers, row * even_azimuth() + m); });
-      azimuth *= w.azimuth;
     }
-    log_green += azimuth;
+    log_green += azimuth * w.azimuth;
     if (!tables_.coupling.empty()) {
       log_green += mixed(p, [&](int plane) {
         return mixed(h, [&](int row) {
@@ -215,7 +219,8 @@ double RefinedBrdf::tau(int component, double theta_d) const {
   const FamilyInfo& family = families_.at(static_cast<std::size_t>(component));
   if (family.parameters.empty()) return 0;
   const std::vector<double> values = part(component, RefinedPart::coupling);
-  const SplineWeights weights = spline_weights(1 - std::sqrt(1 - std::sin(theta_d)), structure_.coupling_difference);
+  const double difference = structure_.difference_range.place(1 - std::sqrt(1 - std::sin(theta_d)));
+  const SplineWeights weights = spline_weights(difference, structure_.coupling_difference);
   double dependence = 0;
   for (std::size_t j = 0; j < kSplineOrder; ++j) {
     dependence += weights.weight[j] * values[static_cast<std::size_t>(weights.first) + j];

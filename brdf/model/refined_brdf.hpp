@@ -20,8 +20,8 @@
 
 namespace sklar::brdf {
 
-/// What RefinedBrdf::bytes says of a model of this layout.
-[[nodiscard]] std::size_t refined_bytes(const RefinedLayout& layout, int bits);
+/// What RefinedBrdf::bytes says of a model of this structure and layout.
+[[nodiscard]] std::size_t refined_bytes(const RefinedStructure& structure, const RefinedLayout& layout, int bits);
 
 class RefinedBrdf final : public Brdf {
  public:
@@ -40,7 +40,7 @@ class RefinedBrdf final : public Brdf {
   /// Bytes of the tables that evaluation reads, made of the coefficients on construction.
   [[nodiscard]] std::size_t expanded_bytes() const;
 
-  /// The value in double; eval is within a relative 2e-5 of it, at most points within 1e-6.
+  /// The value in double at `coordinates`; eval is within a relative 2e-5 of it, at most points within 1e-6.
   [[nodiscard]] Rgb at(const Warped& w) const;
 
   [[nodiscard]] const RefinedStructure& structure() const { return structure_; }

@@ -25,7 +25,9 @@ int azimuth_bin(int i, int j, int column) {
 struct Filler {
   const MeasuredTable& table;
   CellMeasure measure;
-  double width, edge_cosine;
+  const RefinedStructure& structure;
+  const CellImportance* importance;
+  double edge_cosine;
 
   /// One column; returns its weight.
   double fill(LossSlice& slice, int i, int j, int column) const {
@@ -36,15 +38,18 @@ struct Filler {
     const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
     const double lowest = std::min(pair.wi.z(), pair.wo.z());
     if (valid == 0 || lowest < kLowestCosine) return 0;
+    const Warped w = warp(structure.width, pair.wo, pair.wi);
+    if (!structure.half_range.contains(w.half) || !structure.difference_range.contains(w.difference)) return 0;
     const auto at = static_cast<std::size_t>(i * kLossColumns + column);
     for (std::size_t c = 0; c < 3; ++c) {
       slice.measured[c][at] = static_cast<float>((table.values[c][one] + table.values[c][other]) / valid);
     }
     slice.cos_i[at] = static_cast<float>(pair.wi.z());
     slice.cos_o[at] = static_cast<float>(pair.wo.z());
-    slice.azimuth[at] = static_cast<float>(warp(width, pair.wo, pair.wi).azimuth);
+    slice.azimuth[at] = static_cast<float>(w.azimuth);
     double weight = valid / 2.0 * (lowest >= edge_cosine ? 1 : kEdgeWeight);
     if (measure == CellMeasure::per_solid_angle) weight *= cell_measure(i, j);
+    if (importance != nullptr) weight *= importance->at(i, j, k);
     slice.weight[at] = static_cast<float>(weight);
     return weight;
   }
@@ -63,20 +68,21 @@ double scale_of(const MeasuredTable& table) {
 
 }  // namespace
 
-RefinedCells refined_cells(const MeasuredTable& table, CellMeasure measure, double width) {
+RefinedCells refined_cells(const MeasuredTable& table, CellMeasure measure, const RefinedStructure& structure,
+                           const CellImportance* importance) {
   require_table("fit_refined", table);
   RefinedCells cells{.slices = std::vector<LossSlice>(Grid::theta_d),
                      .half = Eigen::ArrayXd(Grid::theta_h),
                      .difference = Eigen::ArrayXd(Grid::theta_d),
                      .scale = scale_of(table)};
-  const Filler filler{table, measure, width, std::cos(80 * std::numbers::pi / 180)};
+  const Filler filler{table, measure, structure, importance, std::cos(80 * std::numbers::pi / 180)};
   for (int i = 0; i < Grid::theta_h; ++i) {
     const DirectionPair pair = directions({Grid::theta_h_centre(i), 0, 0});
-    cells.half(i) = warp(width, pair.wo, pair.wi).half;
+    cells.half(i) = coordinates(structure, pair.wo, pair.wi).half;
   }
   for (int j = 0; j < Grid::theta_d; ++j) {
     const DirectionPair pair = directions({0, Grid::theta_d_centre(j), 0});
-    cells.difference(j) = warp(width, pair.wo, pair.wi).difference;
+    cells.difference(j) = coordinates(structure, pair.wo, pair.wi).difference;
     LossSlice& slice = cells.slices[static_cast<std::size_t>(j)];
     for (int i = 0; i < Grid::theta_h; ++i) {
       for (int column = 0; column < kLossColumns; ++column) {

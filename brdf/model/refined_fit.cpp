@@ -97,7 +97,7 @@ RefinedFit fit_refined(const MeasuredTable& table, const RefinedFitOptions& opti
     result.evaluations += first.evaluations;
     return result;
   }
-  RefinedCells cells = refined_cells(table, options.measure, options.structure.width);
+  RefinedCells cells = refined_cells(table, options.measure, options.structure, options.importance.get());
   const double log_scale = std::log(cells.scale);
   const RefinedProblem problem(options.structure, families, std::move(cells));
   return search_from(problem.start(), problem, options, families, log_scale, progress);
@@ -108,7 +108,7 @@ RefinedFit refit_refined(const MeasuredTable& table, const RefinedFitOptions& op
   require_fit_options(options);
   require_same_structure(options, from);
   const std::vector<FamilyInfo> families = families_of(options);
-  RefinedCells cells = refined_cells(table, options.measure, options.structure.width);
+  RefinedCells cells = refined_cells(table, options.measure, options.structure, options.importance.get());
   const double log_scale = std::log(cells.scale);
   const RefinedProblem problem(options.structure, families, std::move(cells));
   return search_from(carried_over(from, families, problem.layout(), log_scale), problem, options, families, log_scale,
@@ -118,7 +118,7 @@ RefinedFit refit_refined(const MeasuredTable& table, const RefinedFitOptions& op
 std::vector<FamilyInfo> choose_families(const MeasuredTable& table, const RefinedFitOptions& options,
                                         const RefinedFit& from, const std::vector<FamilyInfo>& candidates) {
   require_same_structure(options, from);
-  const RefinedCells cells = refined_cells(table, options.measure, options.structure.width);
+  const RefinedCells cells = refined_cells(table, options.measure, options.structure, options.importance.get());
   const double log_scale = std::log(cells.scale);
   const LossWeights weights = final_weights(options.objective);
   std::vector<double> gradient;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "brdf/data/measured_table.hpp"
+#include "brdf/model/cell_importance.hpp"
 #include "brdf/model/paper_brdf.hpp"
 #include "brdf/model/refined_brdf.hpp"
 #include "brdf/model/staged_search.hpp"
@@ -17,8 +18,9 @@ struct RefinedFitOptions {
   std::vector<FamilyInfo> families = {};  ///< one for all components or one a component; none is independence
   RefinedObjective objective = RefinedObjective::balanced;
   CellMeasure measure = CellMeasure::per_cell;
-  int bits = 16;          ///< of a stored coefficient, 6 to 16
-  int evaluations = 800;  ///< of the objective, at most
+  int bits = 16;                                               ///< of a stored coefficient, 6 to 16
+  int evaluations = 800;                                       ///< of the objective, at most
+  std::shared_ptr<const CellImportance> importance = nullptr;  ///< factors of the weights of cells; none is 1
 };
 
 struct RefinedFit {

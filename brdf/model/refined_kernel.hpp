@@ -30,15 +30,26 @@ struct CacheLineAllocator {
 
 using AlignedFloats = std::vector<float, CacheLineAllocator<float>>;
 
+/// AxisRange::place as x stretch - low, cut off at 0 and 1.
+struct PlacedAxis {
+  explicit PlacedAxis(const AxisRange& range)
+      : stretch(static_cast<float>(AxisRange::kWhole) / static_cast<float>(range.high - range.low)),
+        low(static_cast<float>(range.low) / static_cast<float>(range.high - range.low)) {}
+
+  float stretch, low;
+};
+
 /// A model as evaluation reads it: the components side by side, kMostComponents numbers each, those beyond the model's
 /// with a density of e^-80. Colours, powers and couplings stand at the nodes of the Lattice.
 struct RefinedTables {
   int half, difference;  ///< spline coefficients of shape
   int powers_pairs;      ///< half the degree in azimuth, rounded up
   float width;
+  bool on_part;  ///< of the axes, else neither of these is needed
+  PlacedAxis half_axis, difference_axis;
   AlignedFloats shape{};     ///< [difference][half][component]
   AlignedFloats colour{};    ///< [difference][half][red / green, blue / green][component], not logs
-  AlignedFloats powers{};    ///< [difference][power 1, 2, .., an even number][component]
+  AlignedFloats powers{};    ///< [difference][power 0, 1, .., an even number][component], see azimuth_powers
   AlignedFloats coupling{};  ///< [difference][half][azimuth][component] log c; empty without one
 };
 

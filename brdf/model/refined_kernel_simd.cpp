@@ -32,9 +32,9 @@ HWY_INLINE Pair log_parts(const RefinedTables& t, const Block& b, std::ptrdiff_t
   Pair sum = along_half(2).times(along.get(2, row)).plus_times(along.get(3, row), along_half(3));
   const std::ptrdiff_t step = t.powers_pairs * kPair;
   const float* powers = t.powers.data() + b.difference_node[row] * step;
-  const V square = hn::Set(D(), b.azimuth2[row]);
+  const V square = hn::Set(D(), b.square[row]);
   const V next = hn::Set(D(), b.next[row]), here = hn::Sub(hn::Set(D(), 1.0F), next);
-  Pair z = Pair::of(hn::Set(D(), b.azimuth[row]), square);
+  Pair z = Pair::of(hn::Set(D(), b.azimuth[row]), hn::Set(D(), b.product[row]));
   for (int m = 0; m < t.powers_pairs; ++m, powers += kPair) {
     sum = sum.plus_times(z, Pair::load(powers).times(here).plus_times(next, Pair::load(powers + step)));
     z = z.times(square);

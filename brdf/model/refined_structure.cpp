@@ -14,6 +14,13 @@ void require_count(const char* field, int value, int lowest, int highest) {
                               ", allowed are " + std::to_string(lowest) + " to " + std::to_string(highest));
 }
 
+void require_range(const char* field, const AxisRange& range) {
+  if (0 <= range.low && range.low < range.high && range.high <= AxisRange::kWhole) return;
+  throw std::invalid_argument("refined model: " + std::string(field) + " is " + std::to_string(range.low) + " to " +
+                              std::to_string(range.high) + ", allowed are ranges within 0 to " +
+                              std::to_string(AxisRange::kWhole));
+}
+
 }  // namespace
 
 void require_structure(const RefinedStructure& structure) {
@@ -30,6 +37,24 @@ void require_structure(const RefinedStructure& structure) {
     throw std::invalid_argument("refined model: width is " + sklar::to_text(structure.width) +
                                 ", allowed are (0, 100]");
   }
+  require_range("half_range", structure.half_range);
+  require_range("difference_range", structure.difference_range);
+}
+
+bool is_whole(const RefinedStructure& structure) {
+  return structure.half_range.whole() && structure.difference_range.whole();
+}
+
+bool in_ranges(const RefinedStructure& structure, const Vec3& wo, const Vec3& wi) {
+  const Warped w = warp(structure.width, wo, wi);
+  return structure.half_range.contains(w.half) && structure.difference_range.contains(w.difference);
+}
+
+Warped coordinates(const RefinedStructure& structure, const Vec3& wo, const Vec3& wi) {
+  Warped w = warp(structure.width, wo, wi);
+  w.half = structure.half_range.place(w.half);
+  w.difference = structure.difference_range.place(w.difference);
+  return w;
 }
 
 RefinedLayout::RefinedLayout(const RefinedStructure& structure, const std::vector<bool>& coupled) : first_{0} {

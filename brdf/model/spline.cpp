@@ -36,4 +36,16 @@ Eigen::MatrixXd bernstein_powers(int degree) {
   return powers;
 }
 
+Eigen::MatrixXd azimuth_powers(int degree) {
+  Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(degree, degree);  // of z^k: C(k, j) 2^(j - k) at (z - 1/2)^j
+  for (int k = 0; k < degree; ++k) {
+    double entry = 1;
+    for (int j = k; j >= 0; --j) {
+      shift(j, k) = entry;
+      entry *= 0.5 * j / (k - j + 1);
+    }
+  }
+  return shift * bernstein_powers(degree);
+}
+
 }  // namespace sklar::brdf

@@ -24,4 +24,8 @@ struct SplineWeights {
 /// A sum of these polynomials is 0 at z = 0, and in [0,1] between the least and the largest of 0 and its coefficients.
 [[nodiscard]] Eigen::MatrixXd bernstein_powers(int degree);
 
+/// The same as z times a polynomial in z - 1/2: rows are its powers 0 to degree - 1. On [0,1] they cancel little, so
+/// single precision is enough for them.
+[[nodiscard]] Eigen::MatrixXd azimuth_powers(int degree);
+
 }  // namespace sklar::brdf

@@ -8,6 +8,13 @@
 
 namespace sklar::brdf {
 
+/// action(name, range) for the ranges of a refined model.
+template <class Structure, class Action>
+void for_each_range(Structure& structure, const Action& action) {
+  action("half_range", structure.half_range);
+  action("difference_range", structure.difference_range);
+}
+
 /// action(name, count) for each.
 template <class Structure, class Action>
 void for_each_count(Structure& structure, const Action& action) {

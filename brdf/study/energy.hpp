@@ -1,25 +1,30 @@
 #pragma once
-/// Refined models that send back no more light than they get.
+/// Models that send back no more light than they get.
 
 #include <memory>
 
+#include "brdf/model/anisotropic_model.hpp"
 #include "brdf/model/refined_brdf.hpp"
 
 namespace sklar::brdf {
 
 /// A model and what was done to it.
-struct LimitedBrdf {
-  std::shared_ptr<const RefinedBrdf> brdf;  ///< the model itself where it kept the limit
-  double albedo_before = 0;                 ///< largest directional albedo over theta_o and channels
-  double albedo_after = 0;                  ///<
-  double lowest_factor = 1;                 ///< the least by which values were multiplied, at some theta_d
+template <class Model>
+struct Limited {
+  std::shared_ptr<const Model> brdf;  ///< the model itself where it kept the limit
+  double albedo_before = 0;           ///< largest directional albedo over wo and channels
+  double albedo_after = 0;            ///<
+  double lowest_factor = 1;           ///< the least by which values were multiplied, at some theta_d
 };
 
 /// Lowers a model where its directional albedo exceeds a limit: all components are multiplied by one smooth factor of
-/// theta_d, at most 1, found by repeated projection onto the worst theta_o, so that as little as possible changes
-/// elsewhere. The albedo is that of directional_albedo at 0, 0.5, .., 89.5 degrees. Reciprocity is not touched.
+/// theta_d, at most 1, found by repeated projection onto the worst wo, so that as little as possible changes elsewhere.
+/// The albedo is taken at theta_o of 0, 0.5, .., 89.5 degrees; of an anisotropic model at 0, 3, .., 87 degrees and
+/// phi_o of 0, 15, .., 345. Reciprocity is not touched.
 /// @param limit positive.
 /// @throws std::invalid_argument for another limit; std::runtime_error if the limit is not reached.
-[[nodiscard]] LimitedBrdf limit_albedo(const std::shared_ptr<const RefinedBrdf>& model, double limit = 1);
+[[nodiscard]] Limited<RefinedBrdf> limit_albedo(const std::shared_ptr<const RefinedBrdf>& model, double limit = 1);
+[[nodiscard]] Limited<AnisotropicModel> limit_albedo(const std::shared_ptr<const AnisotropicModel>& model,
+                                                     double limit = 1);
 
 }  // namespace sklar::brdf

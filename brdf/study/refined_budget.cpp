@@ -54,6 +54,7 @@ const std::vector<RefinedStructure>& structure_ladder() {
 
 BudgetSearch usual_search() {
   BudgetSearch search{.families = {families::find("independence"), families::find("frank")}};
+  search.colours = {{4, 4}, {8, 10}};
   search.substitutes = {search.families.front()};
   for (const FamilyInfo& family : families::all()) {
     if (family.parameters.size() != 1 || !family.theta_from_tau) continue;
@@ -67,7 +68,7 @@ BudgetSearch usual_search() {
 std::size_t stored_bytes(const RefinedStructure& structure, int bits, bool coupled) {
   const auto components = static_cast<std::size_t>(structure.components);
   const RefinedLayout layout(structure, std::vector<bool>(components, coupled));
-  return refined_bytes(layout, bits);
+  return refined_bytes(structure, layout, bits);
 }
 
 RefinedStructure largest_structure(double max_bytes, int bits) {
@@ -94,31 +95,14 @@ class Searcher {
 
   /// Returns whether a model of the structure meets the budget.
   bool fit(const RefinedStructure& structure) {
+    const std::size_t before = points_.size();
     options_.structure = structure;
-    const Stopwatch stopwatch;
     RefinedFit last;
-    bool found = false;
-    const auto keep = [&](const std::string& family, double since) {
-      for (FrontPoint& point : points_of(table_, last, family, stopwatch.seconds() - since, search_.bits)) {
-        found = found || meets(point.figures, budget_);
-        points_.push_back(std::move(point));
-      }
-    };
-    for (const FamilyInfo& family : search_.families) {
-      options_.families = {family};
-      say(structure, family.name);
-      const double since = stopwatch.seconds();
-      last = fit_refined(table_, options_);
-      keep(family.name, since);
-    }
-    if (search_.substitutes.empty()) return found;
-    say(structure, "a family for each component");
-    const double since = stopwatch.seconds();
-    options_.families = choose_families(table_, options_, last, search_.substitutes);
-    if (same_names(options_.families, last.brdf->families())) return found;
-    last = refit_refined(table_, options_, last);
-    keep("mixed", since);
-    return found;
+    for (const FamilyInfo& family : search_.families) last = fit_family(family);
+    if (!search_.substitutes.empty()) fit_substitutes(last);
+    fit_colours(structure, before);
+    return std::any_of(points_.begin() + static_cast<std::ptrdiff_t>(before), points_.end(),
+                       [&](const FrontPoint& point) { return meets(point.figures, budget_); });
   }
 
   [[nodiscard]] const std::vector<RefinedStructure>& structures() const { return structures_; }
@@ -146,8 +130,48 @@ class Searcher {
   }
 
  private:
-  void say(const RefinedStructure& structure, const std::string& what) const {
-    if (progress_) progress_(std::to_string(smallest(structure)) + " bytes and more, " + what);
+  RefinedFit fit_family(const FamilyInfo& family) {
+    options_.families = {family};
+    say(family.name);
+    const Stopwatch stopwatch;
+    RefinedFit fit = fit_refined(table_, options_);
+    keep(fit, family.name, stopwatch);
+    return fit;
+  }
+
+  void fit_substitutes(const RefinedFit& last) {
+    say("a family for each component");
+    const Stopwatch stopwatch;
+    options_.families = choose_families(table_, options_, last, search_.substitutes);
+    if (same_names(options_.families, last.brdf->families())) return;
+    keep(refit_refined(table_, options_, last), "mixed", stopwatch);
+  }
+
+  /// With the families of the most exact model of the structure, whose models begin at `first`.
+  void fit_colours(const RefinedStructure& structure, std::size_t first) {
+    const FrontPoint best =
+        *std::min_element(points_.begin() + static_cast<std::ptrdiff_t>(first), points_.end(), more_exact);
+    for (const auto& [half, difference] : search_.colours) {
+      options_.structure = structure;
+      options_.structure.colour_half = half;
+      options_.structure.colour_difference = difference;
+      if (options_.structure == structure || static_cast<double>(smallest(options_.structure)) > budget_.max_bytes)
+        continue;
+      options_.families = best.fit.brdf->families();
+      say("colours of " + std::to_string(half) + " x " + std::to_string(difference));
+      const Stopwatch stopwatch;
+      keep(fit_refined(table_, options_), best.family, stopwatch);
+    }
+  }
+
+  void keep(const RefinedFit& fit, const std::string& family, const Stopwatch& stopwatch) {
+    for (FrontPoint& point : points_of(table_, fit, family, stopwatch.seconds(), search_.bits)) {
+      points_.push_back(std::move(point));
+    }
+  }
+
+  void say(const std::string& what) const {
+    if (progress_) progress_(std::to_string(smallest(options_.structure)) + " bytes and more, " + what);
   }
 
   [[nodiscard]] std::size_t smallest(const RefinedStructure& structure) const {
@@ -156,11 +180,9 @@ class Searcher {
     return stored_bytes(structure, *std::min_element(search_.bits.begin(), search_.bits.end()), coupled);
   }
   [[nodiscard]] ModelFigures most_exact() const {
-    const auto better = [](const FrontPoint& a, const FrontPoint& b) {
-      return a.figures.log1p_mae < b.figures.log1p_mae;
-    };
-    return std::min_element(points_.begin(), points_.end(), better)->figures;
+    return std::min_element(points_.begin(), points_.end(), more_exact)->figures;
   }
+  static bool more_exact(const FrontPoint& a, const FrontPoint& b) { return a.figures.log1p_mae < b.figures.log1p_mae; }
 
   const MeasuredTable& table_;
   Budget budget_;
@@ -207,17 +229,18 @@ BudgetChoice fit_largest(const MeasuredTable& table, double max_bytes, const Bud
 
 std::string to_markdown(const BudgetChoice& choice) {
   std::string text =
-      "| components | theta_h x theta_d | copula | bits | bytes | log1p_mae | logrel_mae | eval ns | fit s | |\n"
-      "| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n";
+      "| components | theta_h x theta_d | colours | copula | bits | bytes | log1p_mae | logrel_mae | eval ns | fit s | "
+      "|\n"
+      "| ---: | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n";
   for (std::size_t i = 0; i < choice.front.size(); ++i) {
     const FrontPoint& point = choice.front[i];
     const ModelFigures& figures = point.figures;
     const RefinedStructure& structure = point.fit.brdf->structure();
     char row[200];
-    std::snprintf(row, sizeof row, "| %d | %d x %d | %s | %d | %zu | %.5f | %.4f | %.1f | %.1f | %s |\n",
-                  structure.components, structure.half, structure.difference, point.family.c_str(), point.bits,
-                  figures.bytes, figures.log1p_mae, figures.logrel_mae, figures.eval_ns, figures.fit_s,
-                  i == choice.chosen ? "chosen" : "");
+    std::snprintf(row, sizeof row, "| %d | %d x %d | %d x %d | %s | %d | %zu | %.5f | %.4f | %.1f | %.1f | %s |\n",
+                  structure.components, structure.half, structure.difference, structure.colour_half,
+                  structure.colour_difference, point.family.c_str(), point.bits, figures.bytes, figures.log1p_mae,
+                  figures.logrel_mae, figures.eval_ns, figures.fit_s, i == choice.chosen ? "chosen" : "");
     text += row;
   }
   return text;

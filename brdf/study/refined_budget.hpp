@@ -1,6 +1,7 @@
 #pragma once
 /// The cheapest refined model that meets a budget.
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,9 +16,13 @@ struct BudgetSearch {
   std::vector<FamilyInfo> families = {};     ///< each for all components
   std::vector<FamilyInfo> substitutes = {};  ///< for single components of the fit with the last of them
   std::vector<int> bits = {8, 10, 12, 14};   ///< of a stored coefficient
+  /// Numbers of coefficients along half and difference by which red and blue differ from green, beside those of the
+  /// structure: channels share less or more. Each with the best of the families.
+  std::vector<std::array<int, 2>> colours = {};
 };
 
-/// Independence and Frank; every registered family that can couple, in every rotation, as a substitute.
+/// Independence and Frank; every registered family that can couple, in every rotation, as a substitute; colours of 4 x
+/// 4 and 8 x 10.
 [[nodiscard]] BudgetSearch usual_search();
 
 /// One model of the front.
@@ -46,7 +51,8 @@ struct BudgetChoice {
 
 /// With max_error, goes up the ladder and takes the smallest model of the first structure that reaches it; else the
 /// most exact one of the two largest structures that fit, further down where these are too slow. A structure is fitted
-/// once a family, and once more from there where choose_families finds better ones; its precisions share the fit. The
+/// once a family, once more from there where choose_families finds better ones, and once a colour; its precisions share
+/// the fit. The
 /// structure, the families and the bits of `options` are not used.
 /// @param progress called with what is being done.
 /// @throws std::invalid_argument for a budget that is not positive; std::runtime_error naming the best model where none

@@ -4,6 +4,7 @@
 #include <memory>
 #include <system_error>
 
+#include "brdf/study/efficiency.hpp"
 #include "brdf/study/results.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
@@ -58,6 +59,7 @@ void run(const Options& options, bool json) {
   if (materials.empty()) materials.emplace_back();
   std::vector<brdf::CompareRow> rows;
   std::vector<brdf::Comparison> comparisons;
+  std::vector<brdf::SamplerEfficiency> samplers;
   std::vector<std::filesystem::path> files;
   const StepLine steps;
   for (const std::string& material : materials) {
@@ -69,6 +71,10 @@ void run(const Options& options, bool json) {
     files.insert(files.end(), comparison.figures.begin(), comparison.figures.end());
     write_results(options.folder, rows);
     comparisons.push_back(std::move(comparison));
+    steps.show(table->name + ": samplers");
+    const auto measured = sampling_efficiency(table->name, std::make_shared<const brdf::TableBrdf>(table));
+    samplers.insert(samplers.end(), measured.begin(), measured.end());
+    write_file(std::filesystem::path(options.folder) / "efficiency.csv", efficiency_csv(samplers));
   }
   if (comparisons.size() > 1) {
     const auto sheets = brdf::write_sphere_sheets(comparisons, options.folder);
@@ -82,7 +88,9 @@ void run(const Options& options, bool json) {
   for (const brdf::CompareRow& row : rows) {
     if (!row.error.empty()) std::cout << row.material << ", " << row.family << ": " << row.error << '\n';
   }
-  for (const char* name : {"results.json", "results.csv", "results.md"}) {
+  std::cout << "Relative standard deviation of one sample in a white furnace, by theta_o in degrees:\n\n"
+            << efficiency_markdown(samplers) << '\n';
+  for (const char* name : {"results.json", "results.csv", "results.md", "efficiency.csv"}) {
     files.push_back(std::filesystem::path(options.folder) / name);
   }
   for (const auto& file : files) std::cout << file.string() << '\n';

@@ -4,6 +4,7 @@
 #include "copula/error.hpp"
 #include "copula/inference/csv.hpp"
 #include "examples/cli/command.hpp"
+#include "examples/cli/fitted_part.hpp"
 #include "examples/cli/material.hpp"
 #include "examples/cli/text.hpp"
 
@@ -37,12 +38,13 @@ Pairs read_pairs(const std::string& path) {
 
 void run(const std::string& path, const std::string& directions, const std::string& output, bool json) {
   const Pairs pairs = read_pairs(directions);
-  const brdf::BrdfPtr material = load_brdf(path);
+  const brdf::BrdfPtr material = load_sampled_brdf(path);
   Points rows(pairs.wi.rows(), 4);
   rows.leftCols<3>() = material->eval(pairs.wo, pairs.wi);
   for (Index row = 0; row < rows.rows(); ++row) {
     rows(row, 3) = material->pdf(pairs.wo.row(row).transpose(), pairs.wi.row(row).transpose());
   }
+  warn_of_pairs(path, *material, pairs.wo, pairs.wi);
   write_table(output, {"r", "g", "b", "pdf"}, rows, json);
 }
 

@@ -10,6 +10,7 @@
 #include "brdf/study/metrics.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "examples/cli/brdf_fit_scene.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/fit_options.hpp"
 #include "examples/cli/material.hpp"
@@ -25,6 +26,8 @@ struct Options {
   std::string material;
   std::string family;
   FitOptions fit;
+  SceneOptions scene = {};
+  std::string max_error;
   double max_albedo = std::numeric_limits<double>::infinity();
   std::string output;
 };
@@ -107,41 +110,54 @@ brdf::BudgetChoice choose(const Options& options, const brdf::MeasuredTable& tab
   return fit_largest(table, kUsualBytes, search, options.fit.refined, progress);
 }
 
+/// The model, lowered where --max-albedo asks for it.
+template <class Model>
+brdf::Limited<Model> limit(const Options& options, const std::shared_ptr<const Model>& model) {
+  if (std::isinf(options.max_albedo)) return {.brdf = model};
+  return brdf::limit_albedo(model, options.max_albedo);
+}
+
+template <class Model>
+void print_limit(const Options& options, const brdf::Limited<Model>& limited) {
+  if (std::isinf(options.max_albedo)) return;
+  std::cout << "\nlargest directional albedo " << digits(limited.albedo_before) << ", limited "
+            << digits(limited.albedo_after) << "; values multiplied by " << digits(limited.lowest_factor) << " to 1\n";
+}
+
+template <class Model>
+void add_limit(const Options& options, const brdf::Limited<Model>& limited, Json& to) {
+  if (std::isinf(options.max_albedo)) return;
+  to.update({{"albedo_before", limited.albedo_before},
+             {"albedo", limited.albedo_after},
+             {"lowest_factor", limited.lowest_factor}});
+}
+
 void run_refined(const Options& options, const brdf::MeasuredTable& table, bool json) {
   const brdf::BudgetChoice choice = choose(options, table);
   const brdf::FrontPoint& point = choice.front[choice.chosen];
-  brdf::LimitedBrdf limited{.brdf = point.fit.brdf};
-  if (!std::isinf(options.max_albedo)) limited = brdf::limit_albedo(point.fit.brdf, options.max_albedo);
+  const auto limited = limit(options, point.fit.brdf);
   const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = limited.brdf};
   brdf::write_brdf(options.output, stored);
   const double deviation = table.report.isotropy_deviation;
   if (!json) {
     if (deviation > 0) std::cout << "isotropy deviation " << digits(deviation) << ": fitted as isotropic\n\n";
     std::cout << to_markdown(choice);
-    if (!std::isinf(options.max_albedo)) {
-      std::cout << "\nlargest directional albedo " << digits(limited.albedo_before) << ", limited "
-                << digits(limited.albedo_after) << "; values multiplied by " << digits(limited.lowest_factor)
-                << " to 1\n";
-    }
+    print_limit(options, limited);
     return;
   }
   Json more = {{"family", point.family}, {"bits", point.bits}};
   more.update(json_point(point));
   if (deviation > 0) more["isotropy_deviation"] = deviation;
-  if (!std::isinf(options.max_albedo)) {
-    more.update({{"albedo_before", limited.albedo_before},
-                 {"albedo", limited.albedo_after},
-                 {"lowest_factor", limited.lowest_factor}});
-  }
+  add_limit(options, limited, more);
   print_json(stored, errors_of(stored, table), "refined", more);
 }
 
 void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table, bool json) {
+  if (!options.scene.scene.empty()) {
+    throw std::invalid_argument("--scene: '" + table.name + "' is anisotropic, models of a scene are isotropic");
+  }
   if (!options.family.empty() && options.family != "independence") {
     throw std::invalid_argument("--family " + options.family + ": the lobes of an anisotropic model have no copula");
-  }
-  if (!std::isinf(options.max_albedo)) {
-    throw std::invalid_argument("--max-albedo: '" + table.name + "' is anisotropic, the limit is for isotropic models");
   }
   brdf::AnisotropicFitOptions fit_options{.objective = options.fit.refined.objective,
                                           .measure = options.fit.measure,
@@ -153,19 +169,22 @@ void run_anisotropic(const Options& options, const brdf::AnisotropicTable& table
   const brdf::AnisotropicChoice choice = brdf::choose_anisotropic(
       table, budget, fit_options, [&](const std::string& what) { steps.show(table.name + ": " + what); });
   const brdf::AnisotropicPoint& point = choice.front[choice.chosen];
-  const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = point.fit.brdf};
+  const auto limited = limit(options, point.fit.brdf);
+  const brdf::StoredBrdf stored{.material = table.name, .provenance = table.provenance, .model = limited.brdf};
   brdf::write_brdf(options.output, stored);
   if (!json) {
     std::cout << "isotropy deviation " << digits(table.report.isotropy_deviation) << ": fitted as anisotropic\n\n"
               << to_markdown(choice);
+    print_limit(options, limited);
     return;
   }
   Json more = json_point(point);
+  add_limit(options, limited, more);
   more["isotropy_deviation"] = table.report.isotropy_deviation;
-  print_json(stored, brdf::cell_errors(table, *point.fit.brdf), "anisotropic", more);
+  print_json(stored, brdf::cell_errors(table, *limited.brdf), "anisotropic", more);
 }
 
-void run(const Options& options, bool json) {
+void run(const Options& options, std::uint64_t seed, bool json) {
   require_writable(options.output);
   if (!options.fit.is_refined()) {
     if (brdf::is_binary_path(options.output)) throw FileError(options.output, "a model of mode 'paper' is .json");
@@ -173,7 +192,18 @@ void run(const Options& options, bool json) {
   }
   const brdf::Material material = load_any_table(options.material, options.fit.provenance);
   if (const auto* table = std::get_if<brdf::AnisotropicTable>(&material)) return run_anisotropic(options, *table, json);
-  run_refined(options, std::get<brdf::MeasuredTable>(material), json);
+  const auto& table = std::get<brdf::MeasuredTable>(material);
+  if (options.scene.scene.empty()) return run_refined(options, table, json);
+  const std::string tolerance = options.max_error.empty() ? "40dB" : options.max_error;
+  run_scene_fit(table, options.scene, options.fit, parse_tolerance(tolerance), seed, options.output, json);
+}
+
+/// Without a scene --max-error is a number.
+void settle_budget(Options& options) {
+  double& error = options.fit.budget.max_error;
+  if (options.max_error.empty() || !options.scene.scene.empty()) return;
+  if (CLI::detail::lexical_cast(options.max_error, error)) return;
+  throw std::invalid_argument("--max-error " + options.max_error + ": without --scene it is a log1p_mae, a number");
 }
 
 }  // namespace
@@ -189,14 +219,18 @@ void add_brdf_fit(CLI::App& parent, Common& common) {
           "; omitted: frank (paper), independence (refined); with a budget frank, too, and one for each component");
   command->add_option("-o", options->output, "MODEL.json, or refined MODEL.sklar, binary")->required();
   add_fit_options(*command, options->fit, {"refined", "paper"});
-  command->add_option("--max-error", options->fit.budget.max_error,
-                      "refined: the smallest model with at most this log1p_mae");
+  command->add_option(
+      "--max-error", options->max_error,
+      "refined: the smallest model with at most this log1p_mae; with --scene as 40dB, the least PSNR of "
+      "its picture, or 0.5dE, the largest mean CIEDE2000");
+  add_scene_options(*command, options->scene);
   command->add_option("--max-ns", options->fit.budget.max_ns, "refined: nanoseconds an RGB value in a batch, at most");
   command->add_option("--max-albedo", options->max_albedo,
-                      "refined: lower the model where its directional albedo is larger, at some theta_o or channel");
+                      "refined: lower the model where its directional albedo is larger, at some wo or channel");
   finish_command(*command, common, [command, options, &common] {
     settle_fit_options(*command, options->fit);
-    run(*options, common.json);
+    settle_budget(*options);
+    run(*options, common.seed, common.json);
   });
 }
 

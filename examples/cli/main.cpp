@@ -38,10 +38,12 @@ int run(int argc, char** argv) {
   CLI::App* brdf = app.add_subcommand("brdf", "work on a material")->require_subcommand(1);
   add_brdf_albedo(*brdf, common);
   add_brdf_compare(*brdf, common);
+  add_brdf_converge(*brdf, common);
   add_brdf_convert(*brdf, common);
   add_brdf_eval(*brdf, common);
   add_brdf_fit(*brdf, common);
   add_brdf_render(*brdf, common);
+  add_brdf_sample(*brdf, common);
   add_tradeoff(app, common);
 
   std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -9,6 +9,7 @@
 #include "brdf/data/isotropy.hpp"
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/model/model_io.hpp"
+#include "brdf/sampling/sampled_brdf.hpp"
 
 namespace sklar::cli {
 void add_material(CLI::App& command, std::string& path) {
@@ -36,6 +37,10 @@ brdf::BrdfPtr load_brdf(const std::string& path) {
   if (path.empty() || path == "synthetic") return std::make_shared<const brdf::TableBrdf>(load_table(path));
   if (brdf::is_model_path(path)) return brdf::read_brdf(path).brdf();
   return brdf::read_material_brdf(path);
+}
+
+brdf::BrdfPtr load_sampled_brdf(const std::string& path) {
+  return std::make_shared<const brdf::SampledBrdf>(load_brdf(path));
 }
 
 brdf::BrdfPtr load_isotropic_brdf(const std::string& path) {

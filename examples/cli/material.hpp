@@ -29,7 +29,10 @@ void add_material(CLI::App& command, std::string& path);
 /// A fitted model (.json, .sklar), or any material, read between its cell centres or as its file says.
 [[nodiscard]] brdf::BrdfPtr load_brdf(const std::string& path);
 
-/// The same for what takes isotropic reflectance alone. @throws FileError for an anisotropic one.
+/// The same with a sampler made for it: what `brdf sample` draws by and `brdf eval` says the pdf of.
+[[nodiscard]] brdf::BrdfPtr load_sampled_brdf(const std::string& path);
+
+/// As load_brdf, for what takes isotropic reflectance alone. @throws FileError for an anisotropic one.
 [[nodiscard]] brdf::BrdfPtr load_isotropic_brdf(const std::string& path);
 
 /// A bar on stderr where that is a terminal, else nothing.

@@ -13,7 +13,9 @@
 #include "brdf/model/model_binary.hpp"
 #include "brdf/model/model_io.hpp"
 #include "brdf/model/refined_fit.hpp"
+#include "brdf/render/hemisphere.hpp"
 #include "brdf/study/anisotropic_budget.hpp"
+#include "brdf/study/energy.hpp"
 #include "brdf/study/metrics.hpp"
 #include "brdf/study/refined_budget.hpp"
 #include "copula/error.hpp"
@@ -299,6 +301,37 @@ TEST(AnisotropicModel, SurvivesItsFileBitForBit) {
     text.replace(text.find(from), std::string(from).size(), to);
     EXPECT_THROW((void)parse_brdf(text, "model.json"), FileError) << to;
   }
+}
+
+/// The largest over some wo and the channels, by more nodes than limit_albedo takes.
+double largest_albedo(const BrdfPtr& brdf) {
+  double largest = 0;
+  for (const double theta : {0.1, 0.8, 1.3, 1.5}) {
+    const HemisphereNodes nodes = hemisphere_nodes(theta, {.polar = 96, .azimuth = 128});
+    Directions wo(nodes.wi.rows(), 3);
+    wo.rowwise() = Eigen::Array<double, 1, 3>(std::sin(theta), 0, std::cos(theta));
+    for (const double angle : {0.0, 0.5, 1.1, 1.6, 2.6}) {
+      const RgbRows f = Turned(brdf, angle).eval(wo, nodes.wi);
+      largest = std::max(largest, (f.colwise() * nodes.weight).colwise().sum().maxCoeff());
+    }
+  }
+  return largest;
+}
+
+TEST(AnisotropicModel, SendsBackNoMoreThanALimit) {
+  const AnisotropicFit fit = quick_fit(brass());
+  const double before = largest_albedo(fit.brdf), limit = 0.9 * before;
+  EXPECT_EQ(limit_albedo(fit.brdf, 10 * before).brdf, fit.brdf);
+  const Limited<AnisotropicModel> lower = limit_albedo(fit.brdf, limit);
+  constexpr double kNodes = 1e-2;  // relative
+  EXPECT_GT(lower.albedo_before, (1 - kNodes) * before);
+  EXPECT_LE(lower.albedo_after, limit);
+  EXPECT_GT(lower.albedo_after, 0.99 * limit);
+  EXPECT_LE(largest_albedo(lower.brdf), (1 + kNodes) * limit);
+  EXPECT_LT(lower.lowest_factor, 1);
+  EXPECT_GT(lower.lowest_factor, 0.5);
+  EXPECT_EQ(lower.brdf->bytes(), fit.brdf->bytes());
+  EXPECT_THROW((void)limit_albedo(fit.brdf, -1), std::invalid_argument);
 }
 
 TEST(AnisotropicModel, RefusesBadArguments) {

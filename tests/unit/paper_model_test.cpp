@@ -162,7 +162,7 @@ TEST(PaperModel, RefusesBadFilesWithOneLine) {
   EXPECT_EQ(failure("{"), "model.json: is not valid JSON: byte 2");
   EXPECT_EQ(failure("{}"), "model.json: expected \"format\": \"sklar brdf\"");
   EXPECT_EQ(failure(R"({"format": "sklar brdf", "version": 99})"),
-            "model.json: has version 99; this program reads versions 1 to 3");
+            "model.json: has version 99; this program reads versions 1 to 4");
   const PaperFit fit = fit_builtin(families::find("independence"), {.slices = 1});
   std::string text = to_json({.material = "m", .model = fit.brdf});
   text.replace(text.find("\"independence\""), 14, "\"gauss\"");

@@ -109,11 +109,25 @@ TEST(Warp, IsReciprocalToTheBitAndInTheUnitCube) {
   EXPECT_EQ(normal.azimuth, 0);
 }
 
+TEST(Spline, AzimuthPowersAreTheBernsteinPolynomials) {
+  constexpr double kTolerance = 1e-14;
+  for (const int degree : {1, 4, 6}) {
+    const Eigen::MatrixXd powers = azimuth_powers(degree);
+    for (const double z : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+      for (int m = 1; m <= degree; ++m) {
+        double value = 0;
+        for (int j = degree; j-- > 0;) value = value * (z - 0.5) + powers(j, m - 1);
+        const double choose = std::tgamma(degree + 1) / std::tgamma(m + 1) / std::tgamma(degree - m + 1);
+        EXPECT_NEAR(z * value, choose * std::pow(z, m) * std::pow(1 - z, degree - m), kTolerance) << degree << m << z;
+      }
+    }
+  }
+}
+
 TEST(RefinedProblem, GradientIsThatOfTheObjective) {
   for (const char* name : {"independence", "frank", "clayton@180", "gumbel"}) {
     const FamilyInfo& family = families::resolve(name);
-    const RefinedProblem problem(small(), {family, family},
-                                 refined_cells(builtin(), CellMeasure::per_cell, small().width));
+    const RefinedProblem problem(small(), {family, family}, refined_cells(builtin(), CellMeasure::per_cell, small()));
     test::expect_gradient_of_objective(problem, 19, 0, name);
   }
 }
@@ -148,7 +162,7 @@ TEST(RefinedModel, IsReciprocalPositiveFiniteAndTheSameInABatchInEveryInstructio
       EXPECT_GT(forth.row(i).minCoeff(), 0);
       const Rgb one = brdf.eval(Vec3(wo.row(i)), Vec3(wi.row(i)));
       EXPECT_TRUE((one == forth.row(i).transpose()).all());
-      const Rgb exact = brdf.at(warp(brdf.structure().width, wo.row(i), wi.row(i)));
+      const Rgb exact = brdf.at(coordinates(brdf.structure(), wo.row(i), wi.row(i)));
       EXPECT_LT(((one - exact) / exact).abs().maxCoeff(), kSinglePrecision) << i;
     }
   });
@@ -362,14 +376,62 @@ TEST(Budget, SaysWhatIsTheBestWhereNoModelMeetsIt) {
   EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = -1}, search, options), std::invalid_argument);
 }
 
+/// Cells from a theta_d of 50 degrees on count.
+std::shared_ptr<const CellImportance> towards_grazing() {
+  auto importance = std::make_shared<CellImportance>();
+  for (int i = 0; i < Grid::theta_h; ++i) {
+    for (int j = 50; j < Grid::theta_d; ++j) {
+      for (int k = 0; k < CellImportance::kAzimuths; ++k) importance->bin(i, j, k) = 1;
+    }
+  }
+  return importance;
+}
+
+TEST(RefinedRanges, SpendAllCoefficientsOnThePartThatCounts) {
+  RefinedFitOptions options{.structure = small(), .evaluations = 200, .importance = towards_grazing()};
+  options.structure.difference = 4;
+  const RefinedFit whole = fit_refined(builtin(), options);
+  options.structure.difference_range = {30, 64};
+  const RefinedFit part = fit_refined(builtin(), options);
+  EXPECT_LT(part.objective, 0.8 * whole.objective);
+  EXPECT_EQ(part.brdf->bytes(), whole.brdf->bytes() + 4);
+}
+
+TEST(RefinedRanges, AreTheSameInTheKernelAndInFiles) {
+  RefinedFitOptions options{.structure = small(), .evaluations = 40};
+  options.structure.half_range = {8, 60};
+  options.structure.difference_range = {3, 40};
+  const auto brdf = fit_refined(builtin(), options).brdf;
+  const StoredBrdf stored{.material = "part", .provenance = Provenance::synthetic, .model = brdf};
+  const BrdfPtr from_json = parse_brdf(to_json(stored), "json").brdf();
+  const BrdfPtr from_binary = parse_binary(to_binary(stored), "binary").brdf();
+  const Directions all_wo = random_hemisphere(300, 3), all_wi = random_hemisphere(300, 4);
+  constexpr double kSingle = 2e-5;  // relative, of single precision
+  for (Eigen::Index i = 0; i < all_wo.rows(); ++i) {
+    const Vec3 wo = all_wo.row(i), wi = all_wi.row(i);
+    const Rgb value = brdf->eval(wo, wi), exact = brdf->at(coordinates(brdf->structure(), wo, wi));
+    EXPECT_TRUE(((value - exact).abs() <= kSingle * exact).all());
+    EXPECT_TRUE((from_json->eval(wo, wi) == value).all());
+    EXPECT_TRUE((from_binary->eval(wo, wi) == value).all());
+  }
+}
+
+TEST(RefinedRanges, MustBeWithinTheAxis) {
+  RefinedFitOptions options{.structure = small()};
+  for (const AxisRange range : {AxisRange{-1, 5}, AxisRange{0, 65}, AxisRange{7, 7}}) {
+    options.structure.half_range = range;
+    EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  }
+}
+
 TEST(Energy, LowersOnlyWhatSendsBackTooMuch) {
   const RefinedFit fit = quick_fit(builtin());
   const double largest = directional_albedo(*fit.brdf).albedo.maxCoeff();
-  const LimitedBrdf same = limit_albedo(fit.brdf, 1.01 * largest);
+  const Limited<RefinedBrdf> same = limit_albedo(fit.brdf, 1.01 * largest);
   EXPECT_EQ(same.brdf, fit.brdf);
   EXPECT_EQ(same.lowest_factor, 1);
   const double limit = 0.8 * largest;
-  const LimitedBrdf lower = limit_albedo(fit.brdf, limit);
+  const Limited<RefinedBrdf> lower = limit_albedo(fit.brdf, limit);
   constexpr double kNodes = 5e-3;  // relative: other nodes, and angles to 89 instead of 89.5 degrees
   EXPECT_NEAR(lower.albedo_before, largest, kNodes * largest);
   EXPECT_LE(lower.albedo_after, limit);
