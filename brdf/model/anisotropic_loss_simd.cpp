@@ -150,7 +150,7 @@ double collect(const LossWeights& weights, const AnisotropicSlice& slice, const 
     const float* from =
         slice.points.values.data() + cell / kPointBlock * slice.points.numbers * kPointBlock + cell % kPointBlock;
     F numbers[3 + 2 * kMostTerms];
-    for (int n = 0; n < slice.points.numbers; ++n) numbers[n] = load(from + n * kPointBlock);
+    for (std::ptrdiff_t n = 0; n < slice.points.numbers; ++n) numbers[n] = load(from + n * kPointBlock);
     const F* shared = numbers + 3;
     const F* colours = shared + model.shared;
     Part parts[kMost];

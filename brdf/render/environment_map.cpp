@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "brdf/luminance.hpp"
+
 namespace sklar::brdf {
 namespace {
 using std::numbers::pi;

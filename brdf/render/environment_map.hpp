@@ -55,9 +55,4 @@ class EnvironmentMap {
 
 using EnvironmentPtr = std::shared_ptr<const EnvironmentMap>;
 
-/// Weight of a colour in choices of what to draw: its luminance (Rec. 709).
-[[nodiscard]] inline double luminance(const Rgb& rgb) {
-  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 }  // namespace sklar::brdf

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "brdf/geometry/frame.hpp"
+#include "brdf/luminance.hpp"
 
 namespace sklar::brdf {
 namespace {

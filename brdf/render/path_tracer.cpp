@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/luminance.hpp"
 #include "brdf/render/lights.hpp"
 #include "brdf/render/ray_scene.hpp"
 #include "brdf/render/sample_points.hpp"

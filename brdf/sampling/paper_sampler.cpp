@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "brdf/geometry/frame.hpp"
+#include "brdf/luminance.hpp"
 #include "copula/inference/fit.hpp"
 
 namespace sklar::brdf {
@@ -55,7 +56,7 @@ Cells tabulated(const Brdf& brdf, const std::vector<Axis>& grid, PaperTarget tar
     const double factor = target == PaperTarget::reflected_light ? std::cos(theta_i) * std::sin(theta_i) : 1.0;
     for (Index k = 0; k < azimuth.bins; ++k) {
       const Rgb f = brdf.eval(wo, spherical_direction(theta_i, azimuth.centre(k)));
-      cells.mass(row * azimuth.bins + k) = factor * (f * Rgb(0.212671, 0.715160, 0.072169)).sum();
+      cells.mass(row * azimuth.bins + k) = factor * luminance(f);
     }
   });
   return cells;

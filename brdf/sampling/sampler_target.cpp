@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "brdf/luminance.hpp"
+
 namespace sklar::brdf {
 namespace {
 
@@ -79,11 +81,11 @@ class Lines {
 
   /// The light of each point, times its measure.
   [[nodiscard]] std::vector<double> light(const Brdf& brdf) const {
-    const Rgb luminance(0.212671, 0.715160, 0.072169);  // Rec. 709
     const auto count = static_cast<Eigen::Index>(wi_.size());
     std::vector<double> sums(wi_.size());
     for (int turn = 0; turn < 2 * turns_; ++turn) {
-      const double phi = 2 * std::numbers::pi * (turn / 2) / turns_, c = std::cos(phi), s = std::sin(phi);
+      const int step = turn / 2;
+      const double phi = 2 * std::numbers::pi * step / turns_, c = std::cos(phi), s = std::sin(phi);
       const double side = turn % 2 == 0 ? 1 : -1;
       Directions wo(count, 3), wi(count, 3);
       for (Eigen::Index i = 0; i < count; ++i) {
@@ -94,7 +96,7 @@ class Lines {
       const RgbRows f = brdf.eval(wo, wi);
       for (Eigen::Index i = 0; i < count; ++i) {
         const auto n = static_cast<std::size_t>(i);
-        const double value = (f.row(i).transpose() * luminance).sum();
+        const double value = luminance(f.row(i).transpose());
         if (std::isfinite(value) && value > 0) sums[n] += value * wi_[n].z() * measure_[n] / (2 * turns_);
       }
     }

@@ -14,6 +14,7 @@
 #include "brdf/analytic/lambert.hpp"
 #include "brdf/analytic/sum.hpp"
 #include "brdf/geometry/frame.hpp"
+#include "brdf/luminance.hpp"
 #include "brdf/render/hemisphere.hpp"
 #include "brdf/sampling/paper_sampler.hpp"
 #include "brdf/sampling/sampled_brdf.hpp"
@@ -36,8 +37,9 @@ struct Furnace {
     solid_angle = nodes.weight / wi.col(2);
     Directions all(wi.rows(), 3);
     all.rowwise() = wo.transpose().array();
-    const Eigen::Vector3d luminance(0.212671, 0.715160, 0.072169);
-    light = (brdf.eval(all, wi).matrix() * luminance).array() * wi.col(2);
+    const RgbRows f = brdf.eval(all, wi);
+    light.resize(wi.rows());
+    for (Eigen::Index i = 0; i < wi.rows(); ++i) light(i) = luminance(f.row(i).transpose()) * wi(i, 2);
   }
 
   [[nodiscard]] Eigen::ArrayXd values(const std::function<double(const Vec3&)>& of_wi) const {

@@ -62,7 +62,8 @@ template <class Model>
 Worst worst_of(const Model& model) {
   using V = Views<Model>;
   const auto view_at = [](Eigen::Index row) {
-    return View{static_cast<double>(row / V::azimuths) * V::step * kDegree,
+    const Eigen::Index polar = row / V::azimuths;
+    return View{static_cast<double>(polar) * V::step * kDegree,
                 static_cast<double>(row % V::azimuths) * (360 * kDegree / V::azimuths)};
   };
   RgbRows albedo(V::polar * V::azimuths, 3);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/luminance.hpp"
 #include "copula/random.hpp"
 #include "tests/support/chi_square.hpp"
 
@@ -54,7 +55,8 @@ TEST(EnvironmentMap, DrawsFollowTheDensity) {
   const EnvironmentMap map(patchwork());
   constexpr int kDraws = 1'000'000;
   constexpr int kParts = 2;  // of a pixel, either way, so that draws within one are tested too
-  std::vector<double> observed(kRows * kColumns * kParts * kParts), expected(observed.size());
+  constexpr std::size_t kCells = std::size_t{kRows} * kColumns * kParts * kParts;
+  std::vector<double> observed(kCells), expected(kCells);
   Rng rng(test::seed_of_this_test());
   const auto cell = [&](const Vec3& w) {
     const double across = (0.5 + std::atan2(w.x(), -w.z()) / (2 * pi)) * kColumns;
