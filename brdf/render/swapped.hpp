@@ -24,7 +24,11 @@ class Swapped final : public Brdf {
 
  protected:
   [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
-    return base_->sample(wo, uniforms).wi;
+    return draw(wo, uniforms).wi;
+  }
+  [[nodiscard]] Draw draw(const Vec3& wo, const Vec2& uniforms) const override {
+    const Sample drawn = base_->sample(wo, uniforms);
+    return {drawn.wi, drawn.pdf};
   }
 
  private:

@@ -25,7 +25,11 @@ class DrawnBy final : public Brdf {
 
  protected:
   [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
-    return sampler_->sample(wo, uniforms).wi;
+    return draw(wo, uniforms).wi;
+  }
+  [[nodiscard]] Draw draw(const Vec3& wo, const Vec2& uniforms) const override {
+    const Sample drawn = sampler_->sample(wo, uniforms);
+    return {drawn.wi, drawn.pdf};
   }
 
  private:
