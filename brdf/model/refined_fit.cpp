@@ -115,6 +115,14 @@ RefinedFit refit_refined(const MeasuredTable& table, const RefinedFitOptions& op
                      progress);
 }
 
+RefinedFit with_bits(RefinedFit fit, int bits) {
+  require_bits("refined model", bits);
+  const RefinedBrdf& fitted = *fit.brdf;
+  fit.brdf = std::make_shared<RefinedBrdf>(fitted.structure(), fitted.families(),
+                                           pack(fitted.layout(), bits, fit.coefficients));
+  return fit;
+}
+
 std::vector<FamilyInfo> choose_families(const MeasuredTable& table, const RefinedFitOptions& options,
                                         const RefinedFit& from, const std::vector<FamilyInfo>& candidates) {
   require_same_structure(options, from);

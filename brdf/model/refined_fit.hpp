@@ -45,6 +45,9 @@ struct RefinedFit {
 [[nodiscard]] RefinedFit refit_refined(const MeasuredTable& table, const RefinedFitOptions& options,
                                        const RefinedFit& from, const Progress& progress = {});
 
+/// The same fit with coefficients rounded to another number of bits. @throws std::invalid_argument unless 6 to 16.
+[[nodiscard]] RefinedFit with_bits(RefinedFit fit, int bits);
+
 /// One family a component: that of the candidates with the least objective where it takes the place of the component's
 /// own, at the nearest tau that it has and with all else as it is. The families of `options` are not used.
 [[nodiscard]] std::vector<FamilyInfo> choose_families(const MeasuredTable& table, const RefinedFitOptions& options,

@@ -18,10 +18,7 @@ std::vector<FrontPoint> points_of(const MeasuredTable& table, const RefinedFit& 
                                   double fit_s, const std::vector<int>& all_bits) {
   std::vector<FrontPoint> points;
   for (const int bits : all_bits) {
-    const RefinedBrdf& fitted = *fit.brdf;
-    FrontPoint& point = points.emplace_back(FrontPoint{.fit = fit, .family = family, .bits = bits});
-    point.fit.brdf = std::make_shared<RefinedBrdf>(fitted.structure(), fitted.families(),
-                                                   pack(fitted.layout(), bits, fit.coefficients));
+    FrontPoint& point = points.emplace_back(FrontPoint{.fit = with_bits(fit, bits), .family = family, .bits = bits});
     point.figures = figures_of(*point.fit.brdf, cell_errors(table, predict(*point.fit.brdf, table)));
     point.figures.fit_s = fit_s;
   }

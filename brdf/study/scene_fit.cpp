@@ -85,11 +85,7 @@ class Judge {
     std::sort(bits.begin(), bits.end());
     for (const int fewer : bits) {
       if (fewer >= model.bits) break;
-      const RefinedBrdf& brdf = *model.fit.brdf;
-      RefinedFit fit = model.fit;
-      fit.brdf = std::make_shared<RefinedBrdf>(brdf.structure(), brdf.families(),
-                                               pack(brdf.layout(), fewer, fit.coefficients));
-      SceneModel smaller = judged(fit, fewer);
+      SceneModel smaller = judged(with_bits(model.fit, fewer), fewer);
       if (meets(smaller)) return smaller;
     }
     return model;
