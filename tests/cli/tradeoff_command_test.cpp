@@ -47,7 +47,7 @@ TEST_F(Tradeoff, EveryLevelIsAsAccurateAsItSays) {
 TEST_F(Tradeoff, TheSeedChoosesThePoints) {
   const auto errors = [&](const std::string& seed) {
     std::vector<double> all;
-    const Result result = run("tradeoff --families independence,frank --rows 20 --json --seed " + seed);
+    const Result result = run("tradeoff --families frank --rows 5 --json --seed " + seed);
     const auto document = nlohmann::json::parse(result.out);
     for (const auto& row : document["rows"]) all.push_back(row["max_error"]);
     return all;

@@ -137,7 +137,6 @@ TEST(AnisotropicModel, IsFarMoreExactThanTheIsotropicOne) {
     AnalyticValues values;
   };
   for (const Case& c : {Case{"ward", {0.1, 0.1, 0.1, 0.33, 0.33, 0.33, 0.05, 0.16}},
-                        Case{"ward_duer", {0.1, 0.1, 0.1, 0.33, 0.33, 0.33, 0.05, 0.16}},
                         Case{"ggx_anisotropic", {0.04, 0.5, 1, 0.05, 0.25}}}) {
     const Turned turned(analytic::find(c.name).make_unchecked(c.values), 0.5);
     const AnisotropicTable table = table_of(turned);

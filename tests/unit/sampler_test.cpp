@@ -43,11 +43,16 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kList = {
-      {"paper", [] { return BrdfPtr(fit_paper(builtin(), families::find("frank"), {.slices = 2}).brdf); }},
+      {"paper",
+       [] {
+         return BrdfPtr(
+             fit_paper(builtin(), families::find("gumbel"), {.slices = 2, .method = FitMethod::maximum_likelihood})
+                 .brdf);
+       }},
       {"refined",
        [] {
          const RefinedStructure structure{.components = 2, .half = 10, .difference = 6};
-         return BrdfPtr(fit_refined(builtin(), {.structure = structure, .evaluations = 40}).brdf);
+         return BrdfPtr(fit_refined(builtin(), {.structure = structure, .evaluations = 12}).brdf);
        }},
       {"table", [] { return std::make_shared<const TableBrdf>(std::make_shared<const MeasuredTable>(builtin())); }},
       {"lambert", [] { return std::make_shared<const Lambert>(Rgb(0.2, 0.5, 0.8)); }},
@@ -284,8 +289,8 @@ TEST(PaperSampler, DrawsFollowTheDensity) {
   for (const PaperCoordinates coordinates : {PaperCoordinates::isotropic, PaperCoordinates::full}) {
     const PaperSampledBrdf brdf(material, frank, PaperTarget::reflected_light, coordinates);
     const auto tests = static_cast<int>(2 * given_directions().size());
-    for (const Vec3& wo : given_directions()) {
-      test::check_sampler(brdf, wo, test::seed_of_this_test(),
+    for (std::size_t i = 0; i < given_directions().size(); i += coordinates == PaperCoordinates::full ? 3 : 1) {
+      test::check_sampler(brdf, given_directions()[i], test::seed_of_this_test(),
                           {.draws = test::sampler_draws() / 50,
                            .theta_cells = 9,
                            .phi_cells = 24,
