@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "brdf/analytic/blinn_phong.hpp"
+#include "brdf/analytic/lafortune.hpp"
 #include "brdf/analytic/phong.hpp"
 #include "brdf/analytic/registry.hpp"
 #include "tests/support/textbook.hpp"
@@ -80,6 +81,61 @@ TEST(BlinnPhong, ExponentZeroIsLambert) {
 
 TEST(BlinnPhong, DensityEndsAtItsLargest) {
   EXPECT_EQ(BlinnPhongLobe(Rgb::Ones(), 10).pdf(kGrazing, kOpposite), power_lobe::kLargest);
+}
+
+TEST(Lafortune, AgreesWithItsSourceInAngles) {
+  const AnalyticValues values = {0.1, 0,   0.3, 0.2, 0.3, 0.4, -1,  -0.8, 0.9, 30, 0.1, 0.1,
+                                 0.2, 0.9, 0.7, 0.6, 5,   0.3, 0.2, 0.1,  -1,  -1, 0.5, 1.5};
+  const BrdfPtr model = analytic::find("lafortune").make(values);
+  EXPECT_FALSE(model->traits().isotropic);
+  for_pairs([&](const Vec3& wo, const Vec3& wi) {
+    const Angles a(wo, wi);
+    double expected = 0.1 / kPi;
+    for (const std::size_t at : {3U, 10U, 17U}) {
+      const double sines = std::sin(a.theta_i) * std::sin(a.theta_o);
+      const double sum = values[at + 3] * sines * std::cos(a.phi_i) * std::cos(a.phi_o) +
+                         values[at + 4] * sines * std::sin(a.phi_i) * std::sin(a.phi_o) +
+                         values[at + 5] * std::cos(a.theta_i) * std::cos(a.theta_o);
+      const double n = values[at + 6];
+      expected += values[at] * (n + 2) / (2 * kPi) * std::pow(std::max(sum, 0.0), n);
+    }
+    EXPECT_NEAR(model->eval(wo, wi)[0] / expected, 1, 1e-12);
+  });
+}
+
+TEST(Lafortune, MirrorDirectionIsThePhongLobe) {
+  const LafortuneLobe lobe({0.1, 0.5, 1.0}, {-1, -1, 1}, 40);
+  const PhongLobe phong({0.1, 0.5, 1.0}, 40);
+  EXPECT_TRUE(lobe.traits().isotropic);
+  for_pairs([&](const Vec3& wo, const Vec3& wi) {
+    const double expected = phong.eval(wo, wi)[0];
+    if (expected < kVisible) return;
+    const double cosine = std::cos(Angles(wo, wi).alpha);
+    EXPECT_NEAR(lobe.eval(wo, wi)[0] / expected, 1, 40 * kEps / cosine);
+    EXPECT_NEAR(lobe.pdf(wo, wi) / phong.pdf(wo, wi), 1, 40 * kEps / cosine);
+  });
+}
+
+TEST(Lafortune, LobesLieAlongTheirAxis) {
+  const Vec3 wo = degrees(50, 20);
+  const LafortuneLobe back(Rgb::Ones(), {1, 1, 1}, 100);
+  EXPECT_NEAR(back.eval(wo, wo)[0], 102 / (2 * kPi), 1e-12) << "its peak is where light came from";
+  // Cz < -Cx: tan of the peak is tan(theta_o) Cx / Cz.
+  const LafortuneLobe flat(Rgb::Ones(), {-1, -1, 0.7}, 100);
+  const double peak = std::atan(std::tan(50 * kPi / 180) / 0.7) * 180 / kPi;
+  const double most = flat.eval(wo, degrees(peak, 200))[0];
+  EXPECT_LT(flat.eval(wo, degrees(peak - 1, 200))[0], most);
+  EXPECT_LT(flat.eval(wo, degrees(peak + 1, 200))[0], most);
+}
+
+TEST(Lafortune, AlbedoAtNormalIncidenceIsSpecularTimesAPowerOfCz) {
+  EXPECT_NEAR(albedo(LafortuneLobe(Rgb::Ones(), {-0.9, -0.2, 0.9}, 12), Vec3::UnitZ()), std::pow(0.9, 12), kQuadrature);
+}
+
+TEST(Lafortune, LobesOfNoSpecularAreLeftOut) {
+  const AnalyticInfo& info = analytic::find("lafortune");
+  EXPECT_LT(info.make(info.examples[0])->bytes(), info.make(info.examples[2])->bytes());
+  EXPECT_LT(info.make(info.examples[2])->bytes(), info.make(info.examples[1])->bytes());
 }
 
 }  // namespace
