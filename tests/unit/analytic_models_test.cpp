@@ -7,6 +7,7 @@
 
 #include "brdf/analytic/blinn_phong.hpp"
 #include "brdf/analytic/lafortune.hpp"
+#include "brdf/analytic/oren_nayar.hpp"
 #include "brdf/analytic/phong.hpp"
 #include "brdf/analytic/registry.hpp"
 #include "tests/support/textbook.hpp"
@@ -136,6 +137,57 @@ TEST(Lafortune, LobesOfNoSpecularAreLeftOut) {
   const AnalyticInfo& info = analytic::find("lafortune");
   EXPECT_LT(info.make(info.examples[0])->bytes(), info.make(info.examples[2])->bytes());
   EXPECT_LT(info.make(info.examples[2])->bytes(), info.make(info.examples[1])->bytes());
+}
+
+TEST(OrenNayar, AgreesWithEquation30) {
+  for (const double sigma : {0.1, 0.5, 1.2}) {
+    const OrenNayar model({0.1, 0.5, 1.0}, sigma);
+    for_pairs([&](const Vec3& wo, const Vec3& wi) {
+      const Angles angles(wo, wi);
+      const double square = sigma * sigma;
+      const double alpha = std::max(angles.theta_i, angles.theta_o);
+      const double beta = std::min(angles.theta_i, angles.theta_o);
+      const double expected = 0.5 / kPi *
+                              (1 - 0.5 * square / (square + 0.33) +
+                               0.45 * square / (square + 0.09) * std::max(0.0, std::cos(angles.phi_i - angles.phi_o)) *
+                                   std::sin(alpha) * std::tan(beta));
+      EXPECT_NEAR(model.eval(wo, wi)[1] / expected, 1, 100 * kEps / std::cos(beta));
+    });
+  }
+}
+
+TEST(OrenNayar, SigmaZeroIsLambert) {
+  const OrenNayar model({0.1, 0.5, 1.0}, 0);
+  const Lambert lambert({0.1, 0.5, 1.0});
+  for_pairs([&](const Vec3& wo, const Vec3& wi) { EXPECT_TRUE((model.eval(wo, wi) == lambert.eval(wo, wi)).all()); });
+  EXPECT_EQ(model.traits().albedo_bound, lambert.traits().albedo_bound);
+}
+
+TEST(OrenNayar, AlbedoIsAPlusBTimesAFunctionOfTheta) {
+  // The integral of eq. 30 times cos_i: A + 2 B / pi (sin t (t - sin t cos t) / 2 + tan t (1 - sin^3 t) / 3).
+  constexpr double kSigma = 0.3;
+  constexpr double kA = 1 - 0.5 * 0.09 / 0.42;
+  constexpr double kB = 0.45 * 0.5;
+  const OrenNayar model(Rgb::Ones(), kSigma);
+  double last = 0;
+  // Both kinks of the integrand, in theta and phi, lie on borders of cells of the quadrature.
+  for (const double theta : {0.0, 22.5, 45.0, 67.5}) {
+    const double t = theta * kPi / 180;
+    const double sine = std::sin(t);
+    const double shape = sine * (t - sine * std::cos(t)) / 2 + std::tan(t) * (1 - sine * sine * sine) / 3;
+    const double found = albedo(model, degrees(theta, 0));
+    EXPECT_NEAR(found, kA + 2 * kB / kPi * shape, 1e-4) << theta;
+    EXPECT_GT(found, last);
+    EXPECT_LE(found, model.traits().albedo_bound);
+    last = found;
+  }
+  EXPECT_NEAR(model.traits().albedo_bound, kA + kB / 2, 10 * kEps);
+  EXPECT_NEAR(OrenNayar(Rgb::Ones(), 0.2).traits().albedo_bound, 1.015, 5e-4) << "more than arrives";
+}
+
+TEST(OrenNayar, EndsAtItsLargestValue) {
+  const double value = OrenNayar(Rgb::Ones(), 1).eval(kGrazing, kGrazing)[0];
+  EXPECT_NEAR(value * kPi / (0.45 / 1.09 * OrenNayar::kLargest), 1, 10 * kEps);
 }
 
 }  // namespace
