@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "brdf/analytic/ashikhmin_shirley.hpp"
+#include "brdf/analytic/cook_torrance.hpp"
 #include "tests/support/textbook.hpp"
 
 namespace sklar::brdf {
@@ -68,6 +69,68 @@ TEST(AshikhminShirley, EndsAtItsLargestValue) {
   const AshikhminShirley model(Rgb::Zero(), {0, 0.5, 1}, 10, 10);
   EXPECT_TRUE((model.eval(kGrazing, kOpposite) == Rgb::Constant(power_lobe::kLargest)).all()) << "F = 1 there";
   EXPECT_EQ(model.pdf(kGrazing, kOpposite), power_lobe::kLargest);
+}
+
+/// As printed in Cook and Torrance 1982. @param n index of refraction.
+double printed_fresnel(double n, double c) {
+  const double g = std::sqrt(n * n + c * c - 1);
+  const double ratio = (c * (g + c) - 1) / (c * (g - c) + 1);
+  return 0.5 * std::pow((g - c) / (g + c), 2) * (1 + ratio * ratio);
+}
+
+TEST(CookTorrance, AgreesWithTheTextbook) {
+  for (const double m : {0.05, 0.3, 1.0}) {
+    const CookTorranceLobe lobe({0.04, 0.5, 0.9}, m);
+    for_pairs([&](const Vec3& wo, const Vec3& wi) {
+      const Angles a(wo, wi);
+      const double cos_h = std::cos(a.theta_h);
+      const double facets = std::exp(-std::pow(std::tan(a.theta_h) / m, 2)) / (kPi * m * m * std::pow(cos_h, 4));
+      if (facets < kVisible) return;
+      const double cos_i = std::cos(a.theta_i);
+      const double cos_o = std::cos(a.theta_o);
+      const double cos_d = std::cos(a.theta_d);
+      const double geometry = std::min({1.0, 2 * cos_h * cos_o / cos_d, 2 * cos_h * cos_i / cos_d});
+      const double n = (1 + std::sqrt(0.5)) / (1 - std::sqrt(0.5));
+      const double expected = printed_fresnel(n, cos_d) * facets * geometry / (4 * cos_i * cos_o);
+      EXPECT_NEAR(lobe.eval(wo, wi)[1] / expected, 1, 1e-11 / std::min({cos_i, cos_o, cos_h}));
+    });
+  }
+}
+
+TEST(CookTorrance, FresnelTermOfGlass) {
+  // n = 1.5: 4 % along the normal; half of ((n^2 - 1) / (n^2 + 1))^2 where tan(theta) = n, all of it across (Brewster).
+  const Rgb root = Rgb(0, 0.2, 1);
+  const Rgb normal = dielectric_fresnel(root, 1);
+  EXPECT_EQ(normal[0], 0);
+  EXPECT_NEAR(normal[1], 0.04, kEps);
+  EXPECT_EQ(normal[2], 1);
+  EXPECT_NEAR(dielectric_fresnel(root, std::cos(std::atan(1.5)))[1], 0.5 * std::pow(1.25 / 3.25, 2), kEps);
+  const Rgb grazing = dielectric_fresnel(root, 1e-300);
+  EXPECT_EQ(grazing[0], 0);
+  EXPECT_NEAR(grazing[1], 1, kEps);
+  EXPECT_NEAR(grazing[2], 1, kEps);
+}
+
+TEST(CookTorrance, ShareOfDrawsAboveTheHorizon) {
+  // Along z those of tan(theta_h) < 1 reflect upward: 1 - exp(-1 / m^2).
+  for (const double m : {0.1, 0.5, 1.0}) {
+    const double share = share_above(CookTorranceLobe(Rgb::Ones(), m), Vec3::UnitZ());
+    EXPECT_NEAR(share, 1 - std::exp(-1 / (m * m)), kQuadrature) << m;
+  }
+}
+
+TEST(CookTorrance, SmoothSurfaceReflectsTheFresnelTerm) {
+  const CookTorranceLobe lobe(Rgb::Constant(0.04), 0.02);
+  for (const double theta : {0.0, 45.0, 60.0}) {
+    const double expected = printed_fresnel(1.5, std::cos(theta * kPi / 180));
+    EXPECT_NEAR(albedo(lobe, degrees(theta)) / expected, 1, 0.01) << theta;
+  }
+}
+
+TEST(CookTorrance, EndsAtItsLargestValue) {
+  const CookTorranceLobe lobe(Rgb::Ones(), 0.3);
+  EXPECT_EQ(lobe.eval(kGrazing, kOpposite)[0], CookTorranceLobe::kLargest);
+  EXPECT_EQ(lobe.pdf(kGrazing, kOpposite), CookTorranceLobe::kLargest);
 }
 
 }  // namespace
