@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "brdf/analytic/abc.hpp"
 #include "brdf/analytic/ashikhmin_shirley.hpp"
 #include "brdf/analytic/cook_torrance.hpp"
 #include "tests/support/textbook.hpp"
@@ -131,6 +132,61 @@ TEST(CookTorrance, EndsAtItsLargestValue) {
   const CookTorranceLobe lobe(Rgb::Ones(), 0.3);
   EXPECT_EQ(lobe.eval(kGrazing, kOpposite)[0], CookTorranceLobe::kLargest);
   EXPECT_EQ(lobe.pdf(kGrazing, kOpposite), CookTorranceLobe::kLargest);
+}
+
+TEST(Abc, AgreesWithItsSourceInAngles) {
+  for (const double c : {0.5, 1.0, 3.0}) {
+    const AbcLobe lobe({1, 20, 300}, 500, c, 1.5);
+    for_pairs([&](const Vec3& wo, const Vec3& wi) {
+      const Angles a(wo, wi);
+      const Vec2 of_i = std::sin(a.theta_i) * Vec2(std::cos(a.phi_i), std::sin(a.phi_i));
+      const Vec2 of_o = std::sin(a.theta_o) * Vec2(std::cos(a.phi_o), std::sin(a.phi_o));
+      const double cos_d = std::sqrt(1 - (of_i - of_o).squaredNorm() / 4);
+      const double expected = 20 / std::pow(1 + 500 * (of_i + of_o).squaredNorm(), c) * printed_fresnel(1.5, cos_d);
+      EXPECT_NEAR(lobe.eval(wo, wi)[1] / expected, 1, 1e-12 / (cos_d * cos_d));
+    });
+  }
+}
+
+TEST(Abc, FallsToAPowerOfTwoAtItsWidth) {
+  // |D|^2 = 1 / b, at the angle of which the Fresnel term of a large eta hardly differs from that of the peak.
+  const AbcLobe lobe(Rgb::Constant(100), 1e4, 1.7, 100);
+  const double peak = lobe.eval(Vec3::UnitZ(), Vec3::UnitZ())[0];
+  EXPECT_NEAR(peak, 100 * std::pow(99.0 / 101, 2), 1e-12);
+  EXPECT_NEAR(lobe.eval(Vec3::UnitZ(), spherical_direction(std::asin(0.01), 1))[0] / peak, std::pow(2, -1.7), 1e-6);
+}
+
+TEST(Abc, DrawsWeighAsTheFresnelTerm) {
+  // f cos / pdf = pi a F I with I = log(1 + b q) / b for c = 1, q / (1 + b q) for c = 2, q for c = 0.
+  constexpr double kB = 300;
+  Rng rng(seed_of_this_test());
+  for (const double c : {0.0, 1.0, 2.0}) {
+    const AbcLobe lobe(Rgb::Constant(7), kB, c, 1.5);
+    for (int n = 0; n < 1000; ++n) {
+      const Vec3 wo = random_direction(rng);
+      const double first = uniform(rng);
+      const Sample draw = lobe.sample(wo, {first, uniform(rng)});
+      if (!(draw.wi.z() > 0)) continue;
+      const double q = std::pow(1 + std::sqrt(1 - wo.z() * wo.z()), 2);
+      const double integral = c == 0 ? q : c == 1 ? std::log(1 + kB * q) / kB : q / (1 + kB * q);
+      const double cos_d = std::sqrt(1 - (draw.wi - wo).head<2>().squaredNorm() / 4);
+      const double expected = kPi * 7 * integral * printed_fresnel(1.5, cos_d);
+      EXPECT_NEAR(draw.weight[0] / expected, 1, 1e-12 / (cos_d * cos_d)) << c;
+    }
+  }
+}
+
+TEST(Abc, EveryDrawAlongTheNormalIsAboveTheHorizon) {
+  for (const double c : {0.5, 1.0, 3.0}) {
+    EXPECT_NEAR(share_above(AbcLobe(Rgb::Ones(), 50, c, 1.5), Vec3::UnitZ()), 1, kQuadrature) << c;
+  }
+}
+
+TEST(Abc, AlbedoIsBelowItsBound) {
+  const AbcLobe lobe(Rgb::Constant(30), 200, 1.2, 100);
+  const double bound = lobe.traits().albedo_bound;
+  EXPECT_NEAR(albedo(lobe, Vec3::UnitZ()) / bound, std::pow(99.0 / 101, 2), 1e-3);
+  for (const double theta : {45.0, 80.0}) EXPECT_LT(albedo(lobe, degrees(theta)), bound) << theta;
 }
 
 }  // namespace
