@@ -7,6 +7,7 @@
 
 #include "brdf/analytic/blinn_phong.hpp"
 #include "brdf/analytic/lafortune.hpp"
+#include "brdf/analytic/neumann.hpp"
 #include "brdf/analytic/oren_nayar.hpp"
 #include "brdf/analytic/phong.hpp"
 #include "brdf/analytic/registry.hpp"
@@ -188,6 +189,39 @@ TEST(OrenNayar, AlbedoIsAPlusBTimesAFunctionOfTheta) {
 TEST(OrenNayar, EndsAtItsLargestValue) {
   const double value = OrenNayar(Rgb::Ones(), 1).eval(kGrazing, kGrazing)[0];
   EXPECT_NEAR(value * kPi / (0.45 / 1.09 * OrenNayar::kLargest), 1, 10 * kEps);
+}
+
+TEST(Neumann, AgreesWithItsSourceInAngles) {
+  for (const double n : {0.5, 5.0, 2000.0}) {
+    const Neumann model({0.1, 0.5, 1.0}, n);
+    for_pairs([&](const Vec3& wo, const Vec3& wi) {
+      const Angles angles(wo, wi);
+      const double cosine = std::cos(angles.alpha);
+      const double largest = std::cos(std::min(angles.theta_i, angles.theta_o));
+      const double expected = cosine > 0 ? (n + 1) / (2 * kPi) * std::pow(cosine, n) / largest : 0;
+      if (expected < kVisible) return;
+      EXPECT_NEAR(model.eval(wo, wi)[1] / (0.5 * expected), 1, 10 * kEps * ((n + 1) / cosine + 1 / largest));
+    });
+  }
+}
+
+TEST(Neumann, AlbedoAtNormalIncidence) {
+  for (const double n : {1.0, 10.0, 300.0}) {
+    EXPECT_NEAR(albedo(Neumann(Rgb::Ones(), n), Vec3::UnitZ()), (n + 1) / (n + 2), kQuadrature) << n;
+  }
+}
+
+TEST(Neumann, SmoothMetalDoesNotDarkenWithTheAngle) {
+  const Neumann metal(Rgb::Constant(0.9), 3e4);
+  const PhongLobe phong(Rgb::Constant(0.9), 3e4);
+  for (const double theta : {0.0, 45.0, 75.0}) {
+    EXPECT_NEAR(albedo(metal, degrees(theta)) / 0.9, 1, 0.01) << theta;
+    EXPECT_NEAR(albedo(phong, degrees(theta)) / 0.9, std::cos(theta * kPi / 180), 0.01) << theta;
+  }
+}
+
+TEST(Neumann, EndsAtItsLargestValue) {
+  EXPECT_EQ(Neumann(Rgb::Ones(), 10).eval(kGrazing, kOpposite)[0], power_lobe::kLargest);
 }
 
 }  // namespace
