@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 //
 #include <algorithm>
+#include <cstring>
 
 #include "brdf/model/refined_block-inl.h"
 #include "brdf/model/refined_kernel.hpp"
@@ -165,9 +166,19 @@ void evaluate_one(const RefinedTables& t, const DirectionRows& wo, const Directi
     hn::StoreU(sn::exp(d, hn::LoadU(d, green + k)), d, green + k);
   }
   partial_sums(green, colour, sums[0], sums[1], sums[2]);
-  for (std::ptrdiff_t c = 0; c < 3; ++c) {
-    out[c * stride] = static_cast<double>((sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]));
+  const auto total = [&](std::ptrdiff_t c) HWY_ATTR {
+    return static_cast<double>((sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]));
+  };
+  if (stride != 1) {
+    for (std::ptrdiff_t c = 0; c < 3; ++c) out[c * stride] = total(c);
+    return;
   }
+  // Red and green in one store: who multiplies an Rgb loads both at once, and waits until two stores have left the
+  // pipeline.
+  using Two = double __attribute__((vector_size(2 * sizeof(double))));
+  const Two first{total(0), total(1)};
+  std::memcpy(out, &first, sizeof first);
+  out[2] = total(2);
 }
 
 /// Fewer rows than a block, copied.
