@@ -31,7 +31,7 @@ Sample Brdf::sample(const Vec3& wo, const Vec2& uniforms) const {
   return {wi, density, eval(wo, wi) * (wi.z() / density)};
 }
 
-Brdf::Draw Brdf::draw(const Vec3& wo, const Vec2& uniforms) const {
+Draw Brdf::draw(const Vec3& wo, const Vec2& uniforms) const {
   const Vec3 wi = sample_direction(wo, uniforms);
   return {wi, pdf(wo, wi)};
 }

@@ -24,6 +24,12 @@ struct Traits {
   double albedo_bound = 0.0;  ///< upper bound of the directional albedo, 0 = no claim
 };
 
+/// A direction drawn given wo.
+struct Draw {
+  Vec3 wi;
+  double pdf;  ///< of wi given wo, per solid angle
+};
+
 struct Sample {
   Vec3 wi;
   double pdf;  ///< per solid angle
@@ -61,11 +67,6 @@ class Brdf {
 
   /// The direction drawn by sample. Default: cosine hemisphere.
   [[nodiscard]] virtual Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const;
-
-  struct Draw {
-    Vec3 wi;
-    double pdf;  ///< pdf(wo, wi)
-  };
 
   /// What sample needs of the sampler, for those that have the density of a draw cheaper than from its direction alone.
   /// Default: the two calls.

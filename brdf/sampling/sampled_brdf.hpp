@@ -27,10 +27,7 @@ class SampledBrdf final : public Brdf {
   [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
     return sampler_.sample_direction(wo, uniforms);
   }
-  [[nodiscard]] Draw draw(const Vec3& wo, const Vec2& uniforms) const override {
-    const SamplerDraw drawn = sampler_.draw(wo, uniforms);
-    return {drawn.wi, drawn.pdf};
-  }
+  [[nodiscard]] Draw draw(const Vec3& wo, const Vec2& uniforms) const override { return sampler_.draw(wo, uniforms); }
 
  private:
   BrdfPtr brdf_;

@@ -16,12 +16,7 @@ inline constexpr double kSamplerCosineShare = 0.002;
 /// See ConditionalSampler::sample_direction.
 [[nodiscard]] Vec3 sampler_direction(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms);
 
-struct SamplerDraw {
-  Vec3 wi;
-  double pdf;
-};
-
 /// The direction of sampler_direction and what sampler_pdf gives for it, to the last bit of both.
-[[nodiscard]] SamplerDraw sampler_draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms);
+[[nodiscard]] Draw sampler_draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms);
 
 }  // namespace sklar::brdf

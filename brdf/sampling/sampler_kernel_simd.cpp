@@ -8,275 +8,241 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <numbers>
 
-#include "brdf/sampling/sampler_copula.hpp"
+#include "brdf/sampling/half_disk.hpp"
 #include "brdf/sampling/sampler_kernel.hpp"
-#include "brdf/sampling/wi_coordinates.hpp"
+
+// All that takes or returns vectors here is inlined: no call depends on how they are passed.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 HWY_BEFORE_NAMESPACE();
 namespace sklar::brdf::HWY_NAMESPACE {
 
+namespace hn = hwy::HWY_NAMESPACE;
+
 // Vectors as compilers have them: four lanes are the same code in every instruction set, also in one without vectors.
-using V = float __attribute__((vector_size(4 * sizeof(float))));
-using Ints = std::int32_t __attribute__((vector_size(4 * sizeof(std::int32_t))));
-using Doubles = double __attribute__((vector_size(4 * sizeof(double))));
+using Two = float __attribute__((vector_size(2 * sizeof(float))));
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
+using Pair = double __attribute__((vector_size(2 * sizeof(double))));
 using Eight = float __attribute__((vector_size(8 * sizeof(float))));
-static_assert(sizeof(V) == kSamplerComponents * sizeof(float));
+static_assert(kOfHalf.components == 4 && kOfWi.components == 2);
 
-HWY_INLINE V load(const float* from) {
-  V v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-
-HWY_INLINE V between(V low, V high, float share) {
-  return low + share * (high - low);
-}
-
-/// Component 0 of one, the others of another.
-HWY_INLINE V first_and_others(V first, V others) {
-  return __builtin_shufflevector(first, others, 0, 5, 6, 7);
-}
-
-HWY_INLINE V first_and_others(double first, double others) {
-  const auto a = static_cast<float>(first), b = static_cast<float>(others);
-  return V{a, b, b, b};
+template <class Lanes>
+HWY_INLINE Lanes load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
 }
 
 /// What a condition selects, without a branch: those on drawn numbers would be guessed wrongly.
 HWY_INLINE double choose(double positive, double then, double otherwise) {
-  using Pair = double __attribute__((vector_size(2 * sizeof(double))));
   return (Pair{positive, 0} > 0 ? Pair{then, 0} : Pair{otherwise, 0})[0];
-}
-
-/// FoldedAzimuth::of.
-HWY_INLINE FoldedAzimuth folded_azimuth(double x, double y, double length) {
-  constexpr double kTiny = 1e-300;
-  const double tangent = std::abs(y) / (length + std::abs(x) + kTiny);
-  return {0.5 - std::copysign(0.5 - 0.5 * tangent, x), 0.25 + 0.25 * tangent * tangent};
 }
 
 /// The two nodes around theta_o.
 struct Nodes {
-  HWY_INLINE Nodes(const SamplerTables& tables, const OutgoingPlace& place)
-      : low(tables.nodes[static_cast<std::size_t>(place.node)]),
-        high(tables.nodes[static_cast<std::size_t>(place.node) + 1]),
-        share(place.share) {}
+  HWY_INLINE Nodes(const SamplerTables& tables, double cosine) : Nodes(tables.nodes.data(), node(cosine), cosine) {}
 
-  HWY_INLINE V shares() const { return between(load(low.share.data()), load(high.share.data()), share); }
-  HWY_INLINE V dependences() const { return between(load(low.dependence.data()), load(high.dependence.data()), share); }
+  /// Entries of both at the same place, or of rows at `from` and `to`.
+  template <class Lanes>
+  [[nodiscard]] HWY_INLINE Lanes between(const float* from, const float* to) const {
+    const Lanes a = load<Lanes>(from), b = load<Lanes>(to);
+    return a + share * (b - a);
+  }
+  [[nodiscard]] HWY_INLINE float between(float a, float b) const { return a + share * (b - a); }
+  [[nodiscard]] HWY_INLINE double spread() const { return static_cast<double>(between(low.spread, high.spread)); }
 
   const SamplerNode& low;
   const SamplerNode& high;
   float share;
+
+ private:
+  HWY_INLINE Nodes(const SamplerNode* nodes, std::size_t node, double cosine)
+      : low(nodes[node]),
+        high(nodes[node + 1]),
+        share(std::max(kOutgoingCosines[node] - static_cast<float>(cosine), 0.0F) * kInverse[node]) {}
+
+  /// The last node before theta_o that is not the last of all.
+  HWY_INLINE static std::size_t node(double cosine) {
+    const auto wanted = static_cast<float>(cosine);
+    int count = 0;
+    for (std::size_t i = 1; i < kIntervals; ++i) count += kOutgoingCosines[i] > wanted;
+    return static_cast<std::size_t>(count);
+  }
+
+  static constexpr std::size_t kIntervals = kOutgoingNodes - 1;
+  static constexpr auto kInverse = [] {
+    std::array<float, kIntervals> inverse{};
+    for (std::size_t i = 0; i < kIntervals; ++i) inverse[i] = 1 / (kOutgoingCosines[i] - kOutgoingCosines[i + 1]);
+    return inverse;
+  }();
 };
 
-/// A margin of one component at a theta_o.
-template <std::size_t Knots>
-struct Margin {
-  static constexpr int kCells = static_cast<int>(Knots) - 1;
+/// A coordinate among the knots of its margins.
+template <std::size_t Cells>
+struct Place {
+  std::size_t cell;
+  float inside;
 
-  const MarginRow<Knots>& low;
-  const MarginRow<Knots>& high;
-  float share;
-
-  /// Density and cdf at the lower end of a cell, density and cdf at the upper.
-  HWY_INLINE V ends(int cell) const {
-    const std::ptrdiff_t first = 2 * std::ptrdiff_t{cell};
-    return between(load(low.data() + first), load(high.data() + first), share);
-  }
-
-  /// The cell in which the cdf reaches a level: as many knots as have less, but for the first.
-  HWY_INLINE int cell_of(float level) const {
-    constexpr std::size_t kFirst = Knots % 2 == 0 ? 0 : 2;  // so that vectors fill what is left
-    static_assert((2 * Knots - kFirst) % 8 == 0);
-    decltype(Eight{} <= Eight{}) less{};
-    for (std::size_t i = kFirst; i < 2 * Knots; i += 8) {
-      Eight here, next;
-      std::memcpy(&here, low.data() + i, sizeof here);
-      std::memcpy(&next, high.data() + i, sizeof next);
-      less += here + share * (next - here) <= level;
-    }
-    const int count = -(less[1] + less[3] + less[5] + less[7]);
-    return std::clamp(count - (kFirst == 0 ? 1 : 0), 0, kCells - 1);
-  }
-
-  /// The coordinate in [0,1] at which the cdf is `level`.
-  HWY_INLINE double inverse(double level) const {
-    const int cell = cell_of(static_cast<float>(level));
-    const V e = ends(cell);
-    const double first = e[0], rise = e[2] - e[0];
-    const double mass = std::max(level - static_cast<double>(e[1]), 0.0) * kCells;
-    const double inside = 2 * mass / (first + std::sqrt(std::max(first * first + 2 * rise * mass, 0.0)));
-    return (cell + std::min(inside, 1.0)) * (1.0 / kCells);
-  }
-
-  HWY_INLINE double cdf(double coordinate) const {
-    const double position = coordinate * kCells;
-    const int cell = std::min(static_cast<int>(position), kCells - 1);
-    const auto inside = static_cast<float>(position - cell);
-    const V e = ends(cell);
-    return e[1] + inside * (e[0] + 0.5F * inside * (e[2] - e[0])) * (1.0F / kCells);
+  HWY_INLINE explicit Place(double coordinate) {
+    const double position = coordinate * static_cast<double>(Cells);
+    const int index = std::min(static_cast<int>(position), static_cast<int>(Cells) - 1);
+    cell = static_cast<std::size_t>(index);
+    inside = static_cast<float>(position - index);
   }
 };
 
-struct Margins {
-  V density, cdf;
-};
-
-/// The margins of all components, each at its coordinate.
-template <std::size_t Knots>
-HWY_INLINE Margins margins_at(const std::array<MarginRow<Knots>, kSamplerComponents>& low,
-                              const std::array<MarginRow<Knots>, kSamplerComponents>& high, float share, V coordinate) {
-  constexpr int kCells = static_cast<int>(Knots) - 1;
-  const V position = coordinate * float{kCells};
-  Ints cell = __builtin_convertvector(position, Ints);
-  cell = cell < kCells ? cell : Ints{} + (kCells - 1);
-  const V inside = position - __builtin_convertvector(cell, V);
-  const auto ends = [&](std::size_t k) HWY_ATTR { return Margin<Knots>{low[k], high[k], share}.ends(cell[k]); };
-  const V a = ends(0), b = ends(1), c = ends(2), d = ends(3);
-  const V lower = __builtin_shufflevector(a, b, 0, 4, 1, 5), lower2 = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-  const V upper = __builtin_shufflevector(a, b, 2, 6, 3, 7), upper2 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  const V first = __builtin_shufflevector(lower, lower2, 0, 1, 4, 5);
-  const V below = __builtin_shufflevector(lower, lower2, 2, 3, 6, 7);
-  const V rise = inside * (__builtin_shufflevector(upper, upper2, 0, 1, 4, 5) - first);
-  return {first + rise, below + inside * (first + 0.5F * rise) * (1.0F / kCells)};
+template <std::size_t Cells>
+HWY_INLINE Four densities(const Nodes& nodes, const MarginTable<4, Cells>& low, const MarginTable<4, Cells>& high,
+                          const Place<Cells>& at) {
+  const auto ends = nodes.between<Eight>(low.density[at.cell].data(), high.density[at.cell].data());
+  const Four first = __builtin_shufflevector(ends, ends, 0, 1, 2, 3);
+  return first + at.inside * (__builtin_shufflevector(ends, ends, 4, 5, 6, 7) - first);
 }
 
-/// Where wi meets the horizon: slope2_most = numerator / other, so that the polar coordinate of the components is
-/// numerator / (numerator + width^2 other).
-struct Horizon {
-  double numerator, other;
-
-  /// @param length, x of a vector along h in the plane of the surface, x in that of incidence.
-  HWY_INLINE Horizon(const Outgoing& given, double length, double x) {
-    constexpr double kLeast = 1e-12;  // see Outgoing::slope2_most
-    constexpr double kTiny = 1e-100;
-    const double a = std::max(given.cosine, kLeast) * (length + kTiny), b = -given.sine * x;
-    const double sum = std::sqrt(a * a + b * b) + std::abs(b);
-    const double n = choose(b, a, sum), d = choose(b, sum, a);
-    numerator = n * n;
-    other = d * d;
-  }
-};
-
-/// sampler_copula::truncated_density of all components.
-HWY_INLINE V truncated_density(V theta, V rest, V top, V z) {
-  const V rest_top = 1.0F - top, product = rest * z, scaled = theta * product;
-  const V d = 1.0F - scaled, d_top = 1.0F - theta * rest_top * z;
-  const V height = 1.0F + theta * (1.0F - 2.0F * (rest + z) + product + scaled);
-  return height * (d_top * d_top) / (d * d * d * (top * (1.0F - theta * rest_top)));
+template <std::size_t Cells>
+HWY_INLINE Two densities(const Nodes& nodes, const MarginTable<2, Cells>& low, const MarginTable<2, Cells>& high,
+                         const Place<Cells>& at) {
+  const auto ends = nodes.between<Four>(low.density[at.cell].data(), high.density[at.cell].data());
+  const Two first = __builtin_shufflevector(ends, ends, 0, 1);
+  return first + at.inside * (__builtin_shufflevector(ends, ends, 2, 3) - first);
 }
 
 /// Both above the horizon. A function of its own, so that it rounds alike wherever it is called.
-HWY_NOINLINE double density(const SamplerTables& tables, const Outgoing& given, const Nodes& nodes, const Vec3& wo,
-                            const Vec3& wi) {
-  const double sum_x = wi.x() + wo.x(), sum_y = wi.y() + wo.y(), sum_z = wi.z() + wo.z();
-  const double across2 = sum_x * sum_x + sum_y * sum_y, across = std::sqrt(across2);
-  const double x = sum_x * given.along.x() + sum_y * given.along.y();
-  const double y = sum_y * given.along.x() - sum_x * given.along.y();
-  const FoldedAzimuth of_half = folded_azimuth(x, y, across);
-  const Horizon horizon(given, across, x);
-  const double radius2 = wi.x() * wi.x() + wi.y() * wi.y();
-  const double wi_x = wi.x() * given.along.x() + wi.y() * given.along.y();
-  const double wi_y = wi.y() * given.along.x() - wi.x() * given.along.y();
-  const FoldedAzimuth of_wi = folded_azimuth(wi_x, wi_y, std::sqrt(radius2));
-
-  const double sum_z2 = sum_z * sum_z, wi_z2 = wi.z() * wi.z();
-  Doubles width2;
-  std::memcpy(&width2, tables.width2.data(), sizeof width2);
-  const Doubles numerator{radius2, across2, across2, across2};
-  const Doubles q = 1.0 / (numerator + width2 * Doubles{wi_z2, sum_z2, sum_z2, sum_z2});
-  const V polar = __builtin_convertvector(numerator * q, V);
-  const V most = __builtin_convertvector(horizon.numerator / (horizon.numerator + width2 * horizon.other), V);
-  const double half_factor = 0.5 * sum_z * (across2 + sum_z2) * of_half.slope;
-  const Doubles measure = q * q * width2 * Doubles{wi.z() * of_wi.slope, half_factor, half_factor, half_factor};
-  const Margins u = margins_at<kPolarKnots>(nodes.low.polar, nodes.high.polar, nodes.share, polar);
-  const Margins v = margins_at<kAzimuthKnots>(nodes.low.azimuth, nodes.high.azimuth, nodes.share,
-                                              first_and_others(of_wi.s, of_half.s));
-  const V beyond = margins_at<kPolarKnots>(nodes.low.polar, nodes.high.polar, nodes.share, most).cdf;
-  const V top = first_and_others(V{} + 1.0F, beyond), z = first_and_others(1.0F - v.cdf, v.cdf);
-  const V coupled = truncated_density(nodes.dependences(), 1.0F - u.cdf, top, z);
-  const V height = nodes.shares() * u.density * v.density * coupled;
-  const Doubles part = __builtin_convertvector(height, Doubles) * measure;
-  const double sum = (part[0] + part[1]) + (part[2] + part[3]);
-  return (1 - kSamplerCosineShare) * sum + kSamplerCosineShare * std::numbers::inv_pi * wi.z();
+HWY_NOINLINE double density(const Outgoing& given, const Nodes& nodes, const Vec3& wo, const Vec3& wi) {
+  const SamplerNode &low = nodes.low, &high = nodes.high;
+  const WiCoordinates at(given, wo, wi);
+  const DiskWarp::Place polar = DiskWarp(nodes.spread()).of(at.disk2);
+  const Four half =
+      densities(nodes, low.half_polar, high.half_polar, Place<kOfHalf.polar_cells>(polar.coordinate)) *
+      densities(nodes, low.half_azimuth, high.half_azimuth, Place<kOfHalf.azimuth_cells>(at.disk_azimuth));
+  const Two of_wi = densities(nodes, low.wi_polar, high.wi_polar, Place<kOfWi.polar_cells>(at.radius2)) *
+                    densities(nodes, low.wi_azimuth, high.wi_azimuth, Place<kOfWi.azimuth_cells>(at.azimuth));
+  const auto sums = nodes.between<Eight>(low.shares.data(), high.shares.data());
+  const Four before = __builtin_shufflevector(sums, sums, 0, 1, 2, 3);
+  const Four parts = half * (__builtin_shufflevector(sums, sums, 1, 2, 3, 4) - before);
+  const float sum = (parts[0] + parts[1]) + (parts[2] + parts[3]);
+  const float sum_of_wi = of_wi[0] * (sums[5] - sums[4]) + of_wi[1] * (sums[6] - sums[5]);
+  const double total =
+      static_cast<double>(sum) * (polar.slope * at.disk_measure) + static_cast<double>(sum_of_wi) * at.measure;
+  return (1 - kSamplerCosineShare) * total + kSamplerCosineShare * std::numbers::inv_pi * wi.z();
 }
 
-/// What a component is made of at a theta_o, and the uniform numbers left to draw from it.
-struct Component {
-  Margin<kPolarKnots> polar;
-  Margin<kAzimuthKnots> azimuth;
-  double theta;   ///< dependence
-  double p;       ///< of the polar coordinate
-  double turned;  ///< of the azimuth: its cdf, negative on the other side of the plane of incidence
-
-  HWY_INLINE Component(const Nodes& nodes, std::size_t k, double chance, double turn)
-      : polar{nodes.low.polar[k], nodes.high.polar[k], nodes.share},
-        azimuth{nodes.low.azimuth[k], nodes.high.azimuth[k], nodes.share},
-        theta(nodes.low.dependence[k] + nodes.share * (nodes.high.dependence[k] - nodes.low.dependence[k])),
-        p(std::min(chance, 1.0)),
-        turned(2 * turn - 1) {}
-
-  /// The azimuth, as a vector that is not normalised.
-  struct Azimuth {
-    double x, side;  ///< along the plane of incidence and across
-    double length;
-
-    HWY_INLINE Azimuth(double s, double turned) {
-      const double rest = 1 - 2 * s, tangent = 1 - std::abs(rest);
-      x = std::copysign(1 - tangent * tangent, rest);
-      side = std::copysign(2 * tangent, turned);
-      length = 1 + tangent * tangent;
-    }
-
-    HWY_INLINE Vec2 in_surface(const Outgoing& given) const {
-      const double scale = 1 / length, a = x * scale, b = side * scale;
-      return {a * given.along.x() - b * given.along.y(), a * given.along.y() + b * given.along.x()};
-    }
-  };
-  HWY_INLINE Azimuth draw_azimuth() const { return {azimuth.inverse(std::abs(turned)), turned}; }
+/// Where a margin of a component is in a node, counted in floats, so that no draw takes a branch on its component.
+struct MarginLayout {
+  std::int32_t density, stride, cdf, cells;
 };
 
-/// A draw of component 0, which is over wi itself.
-HWY_INLINE Vec3 drawn_wi(const Component& of, const Outgoing& given) {
-  const Vec2 across = of.draw_azimuth().in_surface(given);
-  const double radius2 = of.polar.inverse(sampler_copula::conditional_inverse(of.theta, 1 - std::abs(of.turned), of.p));
-  const double radius = std::sqrt(radius2);
-  return {radius * across.x(), radius * across.y(), std::sqrt(1 - radius2)};
+template <std::size_t Components, std::size_t Cells>
+constexpr MarginLayout layout(std::size_t offset, std::size_t component) {
+  using Table = MarginTable<Components, Cells>;
+  const std::size_t density = (offset + offsetof(Table, density)) / sizeof(float) + component;
+  const std::size_t cdf = (offset + offsetof(Table, cdf)) / sizeof(float) + component * Cells;
+  return {static_cast<std::int32_t>(density), std::int32_t{Components}, static_cast<std::int32_t>(cdf),
+          std::int32_t{Cells}};
 }
 
-/// A draw of another, over the half vector.
-HWY_INLINE Vec3 drawn_half(const Component& of, double width2, const Outgoing& given, const Vec3& wo) {
-  const Component::Azimuth azimuth = of.draw_azimuth();
-  const Horizon horizon(given, azimuth.length, azimuth.x);
-  const double other = width2 * horizon.other, scale = 1 / (horizon.numerator + other);
-  const double top = of.polar.cdf(horizon.numerator * scale);
-  const double u = sampler_copula::truncated_inverse(of.theta, top, std::abs(of.turned), of.p);
-  const double x = of.polar.inverse(u);
-  // The half vector, not normalised: no higher slope than where wi meets the horizon.
-  const double along2 = width2 * x, up2 = std::max(1 - x, other * scale);
-  const double along = std::sqrt(along2), up = std::sqrt(up2);
-  const Vec2 across = azimuth.in_surface(given);
-  const double half_x = along * across.x(), half_y = along * across.y();
-  const double factor = 2 * (wo.x() * half_x + wo.y() * half_y + wo.z() * up) * (1 / (along2 + up2));
-  return {factor * half_x - wo.x(), factor * half_y - wo.y(), factor * up - wo.z()};
+template <std::size_t HalfCells, std::size_t WiCells>
+constexpr std::array<MarginLayout, kSamplerComponents> layouts(std::size_t half, std::size_t wi) {
+  std::array<MarginLayout, kSamplerComponents> result{};
+  for (std::size_t k = 0; k < kOfHalf.components; ++k) result[k] = layout<kOfHalf.components, HalfCells>(half, k);
+  for (std::size_t k = 0; k < kOfWi.components; ++k) {
+    result[kOfHalf.components + k] = layout<kOfWi.components, WiCells>(wi, k);
+  }
+  return result;
+}
+
+constexpr auto kPolar =
+    layouts<kOfHalf.polar_cells, kOfWi.polar_cells>(offsetof(SamplerNode, half_polar), offsetof(SamplerNode, wi_polar));
+constexpr auto kAzimuth = layouts<kOfHalf.azimuth_cells, kOfWi.azimuth_cells>(offsetof(SamplerNode, half_azimuth),
+                                                                              offsetof(SamplerNode, wi_azimuth));
+
+/// What the search may read of a row, its end included, stays within the node.
+constexpr std::size_t kSearched = 16;
+static_assert(kOfHalf.polar_cells <= kSearched);
+static_assert(kAzimuth.back().cdf + kSearched <= sizeof(SamplerNode) / sizeof(float));
+
+/// How many of the first `cells` entries of a row are at most `level`. @tparam Searched how many are read.
+template <std::size_t Searched>
+HWY_INLINE int count_reached(const float* low, const float* high, float share, int cells, float level) {
+  const hn::CappedTag<float, Searched> d;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  std::size_t count = 0;
+  for (int i = 0; i < static_cast<int>(Searched); i += lanes) {
+    const auto from = hn::LoadU(d, low + i);
+    const auto entry = hn::MulAdd(hn::Set(d, share), hn::Sub(hn::LoadU(d, high + i), from), from);
+    const auto counted = hn::FirstN(d, static_cast<std::size_t>(std::max(cells - i, 0)));
+    count += hn::CountTrue(d, hn::And(hn::Le(entry, hn::Set(d, level)), counted));
+  }
+  return static_cast<int>(count);
+}
+
+/// A drawn coordinate, part / whole: a quotient, so that what follows needs one division for both.
+struct Quotient {
+  double part, whole;
+};
+
+/// The coordinate at which the cdf of a margin is `level`.
+HWY_INLINE Quotient inverse(const Nodes& nodes, const MarginLayout& margin, double level) {
+  const auto* low = reinterpret_cast<const float*>(&nodes.low);
+  const auto* high = reinterpret_cast<const float*>(&nodes.high);
+  const float *low_cdf = low + margin.cdf, *high_cdf = high + margin.cdf;
+  const int reached = count_reached<kSearched>(low_cdf, high_cdf, nodes.share, margin.cells, static_cast<float>(level));
+  const int cell = std::min(reached, margin.cells - 1), entry = margin.density + cell * margin.stride;
+  const double first = nodes.between(low[entry], high[entry]);
+  const double last = nodes.between(low[entry + margin.stride], high[entry + margin.stride]);
+  const double upper = nodes.between(low_cdf[cell], high_cdf[cell]);
+  const double mass = std::max((level - upper) * margin.cells + 0.5 * (first + last), 0.0);
+  const double root = first + std::sqrt(std::max(first * first + 2 * (last - first) * mass, 0.0));
+  return {cell * root + std::min(2 * mass, root), margin.cells * root};
+}
+
+/// wi relative to the plane of incidence: along it towards wo, across it, up.
+struct Local {
+  double along, across, up;
+};
+
+/// wi of a point of the disk; see half_disk.hpp. @param x, y of m. @param square |m|^2.
+HWY_INLINE Local from_disk(const Outgoing& given, double x, double y, double square) {
+  const double c = given.cosine, q = given.sine;
+  const double rest = 1 - q * x, d = rest * rest + (q * y) * (q * y), d_up = d + c * c * square;
+  const double inverse = 1 / (d * d_up), factor = 2 * c * c * rest * inverse;
+  return {factor * (x - q * square) - q, factor * y, c * (1 - square) * d * inverse};
 }
 
 /// wo above the horizon.
-HWY_INLINE Vec3 drawn(const SamplerTables& tables, const Outgoing& given, const Nodes& nodes, const Vec3& wo,
-                      const Vec2& uniforms) {
-  const V share = nodes.shares();
+HWY_INLINE Vec3 drawn(const Outgoing& given, const Nodes& nodes, const Vec2& uniforms) {
+  const float *low = nodes.low.shares.data(), *high = nodes.high.shares.data();
   const double chance = (uniforms.x() - kSamplerCosineShare) * (1 / (1 - kSamplerCosineShare));
-  const double first = share[0], second = first + share[1], third = second + share[2];
-  if (chance < first) return drawn_wi(Component(nodes, 0, chance / first, uniforms.y()), given);
-  const double below[] = {first, second, third};
-  const std::size_t next = (chance >= second ? 1U : 0U) + (chance >= third ? 1U : 0U), k = next + 1;
-  const Component component(nodes, k, (chance - below[next]) / share[k], uniforms.y());
-  return drawn_half(component, tables.width2[k], given, wo);
+  constexpr int kLast = kSamplerComponents - 1;
+  const int reached = count_reached<8>(low + 1, high + 1, nodes.share, kLast, static_cast<float>(chance));
+  const auto k = static_cast<std::size_t>(reached);
+  const double from = nodes.between(low[k], high[k]), to = nodes.between(low[k + 1], high[k + 1]);
+  const double turned = std::clamp(2 * (chance - from) / (to - from) - 1, -1.0, 1.0);
+  const Quotient azimuth = inverse(nodes, kAzimuth[k], std::abs(turned));
+  const Quotient polar = inverse(nodes, kPolar[k], uniforms.y());
+
+  const double whole = azimuth.whole, behind = whole - 2 * azimuth.part, tangent = whole - std::abs(behind);
+  const double length = 1 / (whole * whole + tangent * tangent);
+  const double cosine = std::copysign((whole * whole - tangent * tangent) * length, behind);
+  const double sine = std::copysign(2 * whole * tangent * length, turned);
+  const double radius2 = polar.part / polar.whole, is_wi = static_cast<double>(k) - (kOfHalf.components - 0.5);
+  const double square = choose(is_wi, radius2, DiskWarp(nodes.spread()).disk2(polar.part, polar.whole));
+  const double radius = std::sqrt(square), x = radius * cosine, y = radius * sine;
+  const Local half = from_disk(given, x, y, square);
+  const double along = choose(is_wi, x, half.along), across = choose(is_wi, y, half.across);
+  const double up = choose(is_wi, std::sqrt(1 - radius2), half.up);
+  // x and y in one store: a copy of the vector loads both at once, and waits until two stores have left the pipeline.
+  const Pair level{along * given.along.x() - across * given.along.y(),
+                   along * given.along.y() + across * given.along.x()};
+  Vec3 wi;
+  std::memcpy(wi.data(), &level, sizeof level);
+  wi.z() = up;
+  return wi;
 }
 
 HWY_INLINE Vec3 cosine_draw(const Vec2& uniforms) {
@@ -286,24 +252,24 @@ HWY_INLINE Vec3 cosine_draw(const Vec2& uniforms) {
 
 double pdf(const SamplerTables& tables, const Vec3& wo, const Vec3& wi) {
   if (!(wo.z() > 0 && wi.z() > 0)) return 0;
-  return density(tables, Outgoing(wo), Nodes(tables, OutgoingPlace(wo.z())), wo, wi);
+  return density(Outgoing(wo), Nodes(tables, wo.z()), wo, wi);
 }
 
 Vec3 direction(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms) {
   if (!(wo.z() > 0)) return cosine_draw(uniforms);
   if (uniforms.x() < kSamplerCosineShare) return cosine_draw({uniforms.x() / kSamplerCosineShare, uniforms.y()});
-  return drawn(tables, Outgoing(wo), Nodes(tables, OutgoingPlace(wo.z())), wo, uniforms);
+  return drawn(Outgoing(wo), Nodes(tables, wo.z()), uniforms);
 }
 
-SamplerDraw draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms) {
+Draw draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms) {
   if (!(wo.z() > 0 && uniforms.x() >= kSamplerCosineShare)) {
     const Vec3 wi = direction(tables, wo, uniforms);
     return {wi, pdf(tables, wo, wi)};
   }
   const Outgoing given(wo);
-  const Nodes nodes(tables, OutgoingPlace(wo.z()));
-  const Vec3 wi = drawn(tables, given, nodes, wo, uniforms);
-  return {wi, wi.z() > 0 ? density(tables, given, nodes, wo, wi) : 0.0};
+  const Nodes nodes(tables, wo.z());
+  const Vec3 wi = drawn(given, nodes, uniforms);
+  return {wi, wi.z() > 0 ? density(given, nodes, wo, wi) : 0.0};
 }
 
 }  // namespace sklar::brdf::HWY_NAMESPACE
@@ -325,7 +291,7 @@ Vec3 sampler_direction(const SamplerTables& tables, const Vec3& wo, const Vec2& 
   return HWY_DYNAMIC_DISPATCH(direction)(tables, wo, uniforms);
 }
 
-SamplerDraw sampler_draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms) {
+Draw sampler_draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms) {
   return HWY_DYNAMIC_DISPATCH(draw)(tables, wo, uniforms);
 }
 

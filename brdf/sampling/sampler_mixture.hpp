@@ -9,76 +9,71 @@
 
 namespace sklar::brdf {
 
-using SamplerWidths = std::array<double, kSamplerComponents>;  ///< width^2; [0] is not used
-
 /// Masses of the hat functions of a margin's knots, sum 1.
-template <std::size_t Knots>
+template <std::size_t Cells>
 struct HatMargin {
-  std::array<double, Knots> mass;
-
-  static constexpr std::size_t kCells = Knots - 1;
+  std::array<double, Cells + 1> mass;
 
   /// Integral of the hat function of a knot whose height is 1.
-  static constexpr double area(std::size_t knot) { return (knot == 0 || knot == kCells ? 0.5 : 1.0) / kCells; }
+  static constexpr double area(std::size_t knot) { return (knot == 0 || knot == Cells ? 0.5 : 1.0) / Cells; }
 
   static HatMargin uniform() {
     HatMargin margin;
-    for (std::size_t i = 0; i < Knots; ++i) margin.mass[i] = area(i);
+    for (std::size_t i = 0; i <= Cells; ++i) margin.mass[i] = area(i);
     return margin;
   }
   [[nodiscard]] double density(std::size_t knot) const { return mass[knot] / area(knot); }
 };
 
-struct MixtureState {
-  std::array<HatMargin<kPolarKnots>, kSamplerComponents> polar;
-  std::array<HatMargin<kAzimuthKnots>, kSamplerComponents> azimuth;
-  std::array<double, kSamplerComponents> share;
-  std::array<double, kSamplerComponents> dependence;
+/// The components of one kind.
+template <const SamplerKind& Kind>
+struct KindState {
+  std::array<HatMargin<Kind.polar_cells>, Kind.components> polar;
+  std::array<HatMargin<Kind.azimuth_cells>, Kind.components> azimuth;
+  std::array<double, Kind.components> share;
+};
 
-  /// All components alike, uniform margins, no dependence.
+struct MixtureState {
+  KindState<kOfHalf> half;
+  KindState<kOfWi> wi;
+
+  /// Components over the half vector one beyond the other, one over wi uniform and one towards grazing in the plane of
+  /// incidence.
   static MixtureState start();
 
-  /// Mixed with a little of start(), so that no step is stuck at 0.
-  [[nodiscard]] MixtureState loosened() const;
+  /// Where there is no light to follow: wi uniform in radius2 and azimuth.
+  static MixtureState without_light();
 
-  [[nodiscard]] SamplerNode node() const;
+  /// Moved by `amount` towards the mean of two others.
+  [[nodiscard]] MixtureState towards(const MixtureState& a, const MixtureState& b, double amount) const;
+
+  [[nodiscard]] SamplerNode node(double spread) const;
 };
 
 /// The points of one theta_o and the steps on them.
 class MixtureProblem {
  public:
-  MixtureProblem(const std::vector<TargetPoint>& points, const SamplerWidths& width2, double cosine_share);
+  MixtureProblem(const std::vector<TargetPoint>& points, double spread, double cosine_share);
+  MixtureProblem(MixtureProblem&&) noexcept;
+  ~MixtureProblem();
 
-  struct Steps {
-    int likelihood;            ///< that follow f
-    int variance;              ///< then, that follow f^2 / pdf
-    int dependence_every = 6;  ///< 0: no copulas
-  };
-  [[nodiscard]] MixtureState solve(MixtureState state, const Steps& steps) const;
+  /// A step of expectation maximisation towards f.
+  void follow_light(MixtureState& state) const;
 
-  /// Relative variance of the weight f cos / pdf.
-  [[nodiscard]] double variance(const MixtureState& state) const;
+  /// Steps towards f^2 / pdf, which lower the variance of the weight f cos / pdf; leaves the state of the least.
+  void lower_variance(MixtureState& state, int steps) const;
 
  private:
-  /// Where a coordinate lies between the knots.
-  struct Place {
-    std::size_t cell;
-    double inside;
-  };
-  struct Row {
-    std::array<Place, kSamplerComponents> polar, most, azimuth;
-    std::array<double, kSamplerComponents> measure;
-    double cosine_pdf, mass, solid_angle;
-  };
+  struct Row;
   struct Margins;
-  struct Terms;
-  struct Sums;
 
-  [[nodiscard]] Terms terms(const Margins& margins, const MixtureState& state, const Row& row) const;
-  void step(MixtureState& state, bool variance) const;
-  void fit_dependence(MixtureState& state) const;
+  /// Of the state at a point, per solid angle.
+  [[nodiscard]] double pdf(const Margins& margins, const MixtureState& state, const Row& row) const;
 
-  std::vector<Row> rows_{};
+  /// @param towards_variance follows f^2 / pdf, else f. @return the relative variance of the weight before.
+  double step(MixtureState& state, bool towards_variance) const;
+
+  std::vector<Row> rows_;
   double cosine_share_;
 };
 

@@ -1,10 +1,8 @@
 #pragma once
-/// The tables of a ConditionalSampler. Component 0 is a density of (radius2, azimuth), the others are densities of
-/// (slope2, half_azimuth); see WiCoordinates. Given theta_o each is made of two margins and a copula.
-///
-/// The polar coordinate of component k > 0 is x = slope2 / (slope2 + width_k^2), which the normals of a GGX surface of
-/// roughness width_k would make uniform; that of component 0 is radius2. Margins are continuous, linear between knots;
-/// they, the shares and the dependence are linear between the nodes of theta_o.
+/// The tables of a ConditionalSampler: a mixture of six densities, each the product of two margins. Those of the half
+/// vector are over the disk of m (polar coordinate: DiskWarp, azimuth: FoldedAzimuth), those of wi over radius2 and its
+/// azimuth; see WiCoordinates. Margins are continuous, linear between equidistant knots; they, the shares and the
+/// spread of the warp are linear in cos(theta_o) between its nodes.
 
 #include <algorithm>
 #include <array>
@@ -13,48 +11,43 @@
 
 namespace sklar::brdf {
 
-inline constexpr std::size_t kSamplerComponents = 4;
-inline constexpr std::size_t kPolarKnots = 16;
-inline constexpr std::size_t kAzimuthKnots = 13;  ///< odd: a knot at phi = pi/2, where FoldedAzimuth has its kink
-inline constexpr int kOutgoingNodes = 17;
+/// One of the two kinds of components: how many, and the cells of their margins.
+struct SamplerKind {
+  std::size_t components, polar_cells, azimuth_cells;
+};
+inline constexpr SamplerKind kOfHalf{4, 16,
+                                     12};  ///< even azimuth cells: a knot at phi = pi/2, the kink of FoldedAzimuth
+inline constexpr SamplerKind kOfWi{2, 8, 8};
+inline constexpr std::size_t kSamplerComponents = kOfHalf.components + kOfWi.components;
+inline constexpr int kOutgoingNodes = 13;
 
-/// A margin at its knots: density, cdf, density, cdf, ..; so that two knots are four numbers side by side.
-template <std::size_t Knots>
-using MarginRow = std::array<float, 2 * Knots>;
+/// Margins of some components: densities at the knots, components side by side, and the cdf at the upper ends of the
+/// cells, the last of them 1.
+template <std::size_t Components, std::size_t Cells>
+struct MarginTable {
+  std::array<std::array<float, Components>, Cells + 1> density;
+  std::array<std::array<float, Cells>, Components> cdf;
+};
 
 /// What is known at one theta_o.
 struct SamplerNode {
-  std::array<MarginRow<kPolarKnots>, kSamplerComponents> polar;
-  std::array<MarginRow<kAzimuthKnots>, kSamplerComponents> azimuth;
-  std::array<float, kSamplerComponents> share;       ///< sum 1
-  std::array<float, kSamplerComponents> dependence;  ///< theta of the Ali-Mikhail-Haq copula; see sampler_copula.hpp
+  MarginTable<kOfHalf.components, kOfHalf.polar_cells> half_polar;
+  MarginTable<kOfHalf.components, kOfHalf.azimuth_cells> half_azimuth;
+  MarginTable<kOfWi.components, kOfWi.polar_cells> wi_polar;
+  MarginTable<kOfWi.components, kOfWi.azimuth_cells> wi_azimuth;
+  std::array<float, kSamplerComponents + 3> shares;  ///< 0, then running sums; 1 in the end
+  float spread;                                      ///< of DiskWarp
 };
 
 struct SamplerTables {
-  std::vector<SamplerNode> nodes;                   ///< kOutgoingNodes
-  std::array<double, kSamplerComponents> width2{};  ///< [0] is 1
+  std::vector<SamplerNode> nodes;  ///< kOutgoingNodes
 
-  [[nodiscard]] std::size_t bytes() const { return nodes.size() * sizeof(SamplerNode) + sizeof width2; }
+  [[nodiscard]] std::size_t bytes() const { return nodes.size() * sizeof(SamplerNode); }
 };
 
-/// Where theta_o lies between the nodes, which are equidistant in (1 - sqrt(cos) + sqrt(1 - cos)) / 2: dense towards
-/// grazing, where the horizon cuts into the lobes.
-struct OutgoingPlace {
-  int node;
-  float share;  ///< of the next node
-
-  explicit OutgoingPlace(double cosine) {
-    const double c = std::min(cosine, 1.0);
-    const double position = (1 - std::sqrt(c) + std::sqrt(1 - c)) / 2 * (kOutgoingNodes - 1);
-    node = std::min(static_cast<int>(position), kOutgoingNodes - 2);
-    share = static_cast<float>(position - node);
-  }
-
-  /// cos(theta_o) of a node.
-  [[nodiscard]] static double cosine_at(int node) {
-    const double b = 2.0 * node / (kOutgoingNodes - 1) - 1, root = (std::sqrt(2 - b * b) - b) / 2;
-    return root * root;
-  }
-};
+/// cos(theta_o) of the nodes: dense at grazing, where the light changes most, and at the normal, where it loses the
+/// symmetry about it. The numbers between are linear in the cosine.
+inline constexpr std::array<float, kOutgoingNodes> kOutgoingCosines = {
+    1, 0.998F, 0.955F, 0.84F, 0.67F, 0.5F, 0.37F, 0.28F, 0.22F, 0.174F, 0.13F, 0.085F, 0};
 
 }  // namespace sklar::brdf

@@ -66,9 +66,11 @@ class Lines {
 
   /// Adds the points of a rule at one azimuth.
   void add(int azimuth, const Rule& rule) {
-    const Vec2 direction = FoldedAzimuth::direction((azimuth + 0.5) / azimuths_);
-    const double dphi = 1 / (azimuths_ * FoldedAzimuth::of(direction.x(), direction.y(), 1).slope);
-    const double most = std::atan(std::sqrt(Outgoing(wo_).slope2_most(direction.x())));
+    const double phi = std::numbers::pi * (azimuth + 0.5) / azimuths_, dphi = std::numbers::pi / azimuths_;
+    const Vec2 direction(std::cos(phi), std::sin(phi));
+    // Where wi meets the horizon: |z - tan(theta_o)| = 1 / cos(theta_o) for z = tan(theta_h) exp(i phi).
+    const double b = wo_.x() * direction.x(), r = std::sqrt(wo_.z() * wo_.z() + b * b);
+    const double most = std::atan(b < 0 ? wo_.z() / (r - b) : (r + b) / wo_.z());
     for (std::size_t j = 0; j < rule.node.size(); ++j) {
       const double theta_h = most * rule.node[j];
       const Vec3 half(std::sin(theta_h) * direction.x(), std::sin(theta_h) * direction.y(), std::cos(theta_h));

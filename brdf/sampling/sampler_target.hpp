@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "brdf/sampling/wi_coordinates.hpp"
+#include "brdf/sampling/half_disk.hpp"
 
 namespace sklar::brdf {
 
