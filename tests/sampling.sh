@@ -4,7 +4,10 @@
 set -eu
 folder=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
-cmake --build build --target sklar_command
+. cmake/packages.sh
+need_packages $build_packages libbenchmark-dev
+cmake --preset release --log-level=WARNING
+cmake --build build --target sklar_command brdf_bench
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 build/sklar brdf compare "$folder"/*.bsdf --mode paper --families independence --out "$scratch" >/dev/null
@@ -23,7 +26,20 @@ table() {
     "$scratch/efficiency.csv"
 }
 
-# What stands behind the table is written by hand.
+# Medians of ten repetitions on the last processor: a row for each quantity.
+call_times() {
+  pin=
+  if command -v taskset >/dev/null; then pin="taskset -c $(($(nproc) - 1))"; fi
+  $pin build/tests/brdf_bench "$1" --benchmark_format=csv --benchmark_min_time=0.02 --benchmark_repetitions=10 \
+    --benchmark_report_aggregates_only=true 2>/dev/null | awk -F, '
+    { gsub(/"/, "") }
+    sub(/_median$/, "", $1) { split($1, part, "/"); if (part[2] == "one") name[++count] = part[1]; time[$1] = $4 / 4096 }
+    END { for (i = 1; i <= count; ++i) {
+            quantity = name[i]; gsub("_", " ", quantity); sub("sample pdf and", "sample, pdf and", quantity)
+            printf "| %s | %.0f | %.0f |\n", quantity, time[name[i] "/one"], time[name[i] "/waiting"] } }'
+}
+
+# What stands behind the tables is written by hand.
 kept=$(sed -n '/^## How fast pictures converge$/,$p' docs/sampling.md)
 {
   cat <<'HEAD'
@@ -34,12 +50,13 @@ kept=$(sed -n '/^## How fast pictures converge$/,$p' docs/sampling.md)
     build/sklar brdf compare MATERIAL... --out out               # the table below among others, and out/efficiency.csv
 
 `SampledBrdf` (`brdf/sampling/sampled_brdf.hpp`) gives any reflectance, a model, a measured table or a formula, a sampler
-made for it: given theta_o a mixture of four densities, one of wi and three of the half vector, each of two margins and an
-Ali-Mikhail-Haq copula (`brdf/sampling/conditional_sampler.hpp`). It needs 16 KB and about a second to make. The density
-integrates to 1: the polar coordinate is truncated where wi would meet the horizon, so that no draw is lost below it. It is
-continuous, and nowhere below 0.002 cos(theta_i) / pi. Two uniforms make a draw; a lattice or a low-discrepancy sequence
-serves as well as random ones. Luminance is followed: where the channels differ in shape, so do their weights. An anisotropic
-reflectance is followed as far as its mean over phi_o goes, with an exact density all the same.
+made for it: given theta_o a mixture of six densities, each the product of two margins, so that the mixture is what couples
+them (`brdf/sampling/conditional_sampler.hpp`). Two are of wi, four of the half vector, in a disk whose rim is the horizon
+whatever theta_o (`brdf/sampling/half_disk.hpp`): no draw is lost below it, and the density integrates to 1. The sampler
+needs 16 KB and, on two cores, 0.2 seconds to make. Its density is continuous, and nowhere below 0.002 cos(theta_i) / pi.
+Two uniforms make a draw; a lattice or a low-discrepancy sequence serves as well as random ones. Luminance is followed:
+where the channels differ in shape, so do their weights. An anisotropic reflectance is followed as far as its mean over
+phi_o goes, with an exact density all the same.
 
 The paper's own sampler (`brdf/sampling/paper_sampler.hpp`) is one copula over wo and wi, conditional on wo; its Eqs. 26 and
 27, which it solves by numerical techniques, have closed forms for Frank's copula: a quadratic and, in four coordinates, a
@@ -69,6 +86,23 @@ weights count in full. At 0.25 a sample is worth 94 % of one of a perfect sample
 
 HEAD
   table
+  cat <<'TIMES'
+
+## How long a sample takes
+
+Nanoseconds of one call at a time on one thread (`tests/bench/brdf_bench.cpp`), of the 4 KB refined model of chm_mint and
+its sampler, random wo; the value is RGB. In the second column each call waits for what the last one gave.
+
+| call | ns | waiting |
+| --- | ---: | ---: |
+TIMES
+  call_times "$folder"/chm_mint_rgb.bsdf
+  cat <<'TIMES'
+
+A draw is a chain: the node of theta_o, the component, a search and a root for each coordinate, the direction; then its
+density and the value, each a chain too. What a renderer waits for is their sum, little less: while one chain is under way,
+there is room for few instructions of the next call.
+TIMES
   printf '\n%s\n' "$kept"
 } >docs/sampling.md
 echo docs/sampling.md
