@@ -110,20 +110,21 @@ class AshikhminShirley final : public Brdf {
 namespace analytic::ashikhmin_shirley {
 
 inline AnalyticInfo info() {
-  return {.name = "ashikhmin_shirley",
-          .title = "Ashikhmin-Shirley",
-          .source = "Ashikhmin and Shirley 2000; Schlick 1994",
-          .parameters = {{"diffuse", AshikhminShirley::kReflectance, 0.2, true},
-                         {"specular", AshikhminShirley::kReflectance, 0.2, true},
-                         {"exponent_u", AshikhminShirley::kExponent, 100},
-                         {"exponent_v", AshikhminShirley::kExponent, 100}},
-          .examples = {{0, 0, 0, 0.2, 0.5, 1, 500, 500},
-                       {0.5, 0.3, 0.1, 0.05, 0.05, 0.05, 10, 1000},
-                       {1, 0, 0.5, 0, 0.5, 0.3, 30, 5},
-                       {0, 0, 0, 0, 0, 0, 0, 0}},
-          .make_unchecked = [](const AnalyticValues& v) {
-            return std::make_shared<const AshikhminShirley>(rgb_at(v, 0), rgb_at(v, 3), v[6], v[7]);
-          }};
+  return {
+      .name = "ashikhmin_shirley",
+      .title = "Ashikhmin-Shirley",
+      .source = "Ashikhmin and Shirley 2000; Schlick 1994",
+      .parameters = {{"diffuse", AshikhminShirley::kReflectance, 0.2, true},
+                     {"specular", AshikhminShirley::kReflectance, 0.2, true},
+                     {"exponent_u", AshikhminShirley::kExponent, 100, false, SearchScale::logarithmic},
+                     {"exponent_v", AshikhminShirley::kExponent, 100, false, SearchScale::logarithmic, "exponent_u"}},
+      .examples = {{0, 0, 0, 0.2, 0.5, 1, 500, 500},
+                   {0.5, 0.3, 0.1, 0.05, 0.05, 0.05, 10, 1000},
+                   {1, 0, 0.5, 0, 0.5, 0.3, 30, 5},
+                   {0, 0, 0, 0, 0, 0, 0, 0}},
+      .make_unchecked = [](const AnalyticValues& v) {
+        return std::make_shared<const AshikhminShirley>(rgb_at(v, 0), rgb_at(v, 3), v[6], v[7]);
+      }};
 }
 
 }  // namespace analytic::ashikhmin_shirley

@@ -72,7 +72,7 @@ inline AnalyticInfo info() {
           .source = "Blinn 1977; Phong 1975",
           .parameters = {{"diffuse", Lambert::kAlbedo, 0.2, true},
                          {"specular", BlinnPhongLobe::kSpecular, 0.2, true},
-                         {"exponent", BlinnPhongLobe::kExponent, 200}},
+                         {"exponent", BlinnPhongLobe::kExponent, 200, false, SearchScale::logarithmic}},
           .examples = {{0, 0, 0, 0.2, 0.5, 1, 5000}, {0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 100}, {0.5, 0.5, 0, 0.5, 0, 1, 2}},
           .make_unchecked = [](const AnalyticValues& v) {
             const Rgb specular = rgb_at(v, 3);

@@ -96,7 +96,7 @@ inline AnalyticInfo info() {
           .source = "Cook and Torrance 1982; Walter et al. 2007, eq. 25",
           .parameters = {{"diffuse", Lambert::kAlbedo, 0.2, true},
                          {"f0", CookTorranceLobe::kF0, 0.5, true},
-                         {"roughness", CookTorranceLobe::kRoughness, 0.3}},
+                         {"roughness", CookTorranceLobe::kRoughness, 0.3, false, SearchScale::logarithmic}},
           .examples = {{0, 0, 0, 0.04, 0.5, 1, 0.03},
                        {0.3, 0.2, 0.1, 0.04, 0.04, 0.04, 0.15},
                        {0, 0, 0, 0.9, 0.6, 0.3, 0.5},

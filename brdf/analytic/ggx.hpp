@@ -108,7 +108,7 @@ inline AnalyticInfo info() {
   return {.name = "ggx",
           .title = "GGX",
           .source = "Walter et al. 2007, eq. 33; Heitz 2014, eq. 99; Schlick 1994",
-          .parameters = {{"f0", Ggx::kF0, 0.5, true}, {"alpha", Ggx::kAlpha, 0.3}},
+          .parameters = {{"f0", Ggx::kF0, 0.5, true}, {"alpha", Ggx::kAlpha, 0.3, false, SearchScale::logarithmic}},
           .examples = {{0.04, 0.5, 1, 0.02}, {0.04, 0.5, 1, 0.1}, {0.04, 0.5, 1, 0.4}, {0, 0, 0, 1}},
           .make_unchecked = [](const AnalyticValues& v) { return std::make_shared<const Ggx>(rgb_at(v, 0), v[3]); }};
 }

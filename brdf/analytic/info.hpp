@@ -10,11 +10,19 @@
 
 namespace sklar::brdf {
 
+/// In which steps a search of a parameter goes.
+enum class SearchScale {
+  linear,      ///< equal differences
+  logarithmic  ///< equal ratios of the value, or of the value + 1 where 0 is admissible
+};
+
 struct AnalyticParameter {
   std::string name;
   Interval bounds;           ///< of each value, closed and finite
   double initial;            ///< the default of each value
-  bool per_channel = false;  ///< three values, red, green, blue, where true; else one
+  bool per_channel = false;  ///< three values, red, green, blue, each of which acts on its channel alone; else one
+  SearchScale scale = SearchScale::linear;
+  std::string isotropic_as = {};  ///< an earlier parameter that has the same value where isotropic; empty for none
 };
 
 /// The values of a model's parameters, one after another in the order of AnalyticInfo::parameters.
@@ -34,6 +42,10 @@ struct AnalyticInfo {
 
   /// The defaults.
   [[nodiscard]] AnalyticValues initial() const;
+
+  /// The values of an isotropic surface: those of parameters with isotropic_as are replaced.
+  /// @throws std::invalid_argument unless values.size() == size().
+  [[nodiscard]] AnalyticValues isotropic(AnalyticValues values) const;
 
   /// @throws std::invalid_argument unless values.size() == size(), std::domain_error naming model, parameter, bounds
   /// and value unless each is within its bounds.

@@ -99,9 +99,9 @@ inline AnalyticInfo info() {
     const std::string number = "_" + std::to_string(n);
     parameters.push_back({"specular" + number, LafortuneLobe::kSpecular, n == 1 ? 0.2 : 0.0, true});
     parameters.push_back({"c_x" + number, LafortuneLobe::kDirection, -1});
-    parameters.push_back({"c_y" + number, LafortuneLobe::kDirection, -1});
+    parameters.push_back({"c_y" + number, LafortuneLobe::kDirection, -1, false, SearchScale::linear, "c_x" + number});
     parameters.push_back({"c_z" + number, LafortuneLobe::kDirection, 1});
-    parameters.push_back({"exponent" + number, LafortuneLobe::kExponent, 20});
+    parameters.push_back({"exponent" + number, LafortuneLobe::kExponent, 20, false, SearchScale::logarithmic});
   }
   // One lobe; a forward, an off-specular and a retro-reflecting one; an anisotropic one beside a forward one.
   return {

@@ -62,7 +62,8 @@ inline AnalyticInfo info() {
       .name = "neumann",
       .title = "Neumann (stretched Phong)",
       .source = "Neumann, Neumann and Szirmay-Kalos 1999, Compact Metallic Reflectance Models",
-      .parameters = {{"specular", Neumann::kSpecular, 0.5, true}, {"exponent", Neumann::kExponent, 100}},
+      .parameters = {{"specular", Neumann::kSpecular, 0.5, true},
+                     {"exponent", Neumann::kExponent, 100, false, SearchScale::logarithmic}},
       .examples = {{0.95, 0.7, 0.3, 1000}, {0.2, 0.5, 1, 50}, {1, 1, 0, 1}},
       .make_unchecked = [](const AnalyticValues& v) { return std::make_shared<const Neumann>(rgb_at(v, 0), v[3]); }};
 }

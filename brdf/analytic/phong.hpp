@@ -65,7 +65,7 @@ inline AnalyticInfo info() {
       .source = "Lafortune and Willems 1994; Lewis 1993; Phong 1975",
       .parameters = {{"diffuse", Lambert::kAlbedo, 0.2, true},
                      {"specular", PhongLobe::kSpecular, 0.2, true},
-                     {"exponent", PhongLobe::kExponent, 50}},
+                     {"exponent", PhongLobe::kExponent, 50, false, SearchScale::logarithmic}},
       .examples = {{0, 0, 0, 0.2, 0.5, 1, 2000}, {0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 50}, {0.5, 0.5, 0.5, 0.5, 0, 0.2, 1}},
       .make_unchecked = [](const AnalyticValues& v) {
         const Rgb specular = rgb_at(v, 3);

@@ -15,8 +15,8 @@ inline AnalyticInfo info() {
           .source = "Ward 1992, eqs. 5a and 5b",
           .parameters = {{"diffuse", Lambert::kAlbedo, 0.2, true},
                          {"specular", WardLobe::kSpecular, 0.2, true},
-                         {"alpha_x", WardLobe::kAlpha, 0.1},
-                         {"alpha_y", WardLobe::kAlpha, 0.2}},
+                         {"alpha_x", WardLobe::kAlpha, 0.1, false, SearchScale::logarithmic},
+                         {"alpha_y", WardLobe::kAlpha, 0.2, false, SearchScale::logarithmic, "alpha_x"}},
           // rolled brass, enamel finished metal, white ceramic tile (Ward 1992, table 1), and a metal of the roughest.
           .examples = {{0.1, 0.1, 0.1, 0.33, 0.33, 0.33, 0.05, 0.16},
                        {0.25, 0.25, 0.25, 0.047, 0.047, 0.047, 0.08, 0.096},

@@ -102,6 +102,42 @@ TEST_P(AnalyticModel, TurnsAsClaimed) {
   }
 }
 
+TEST_P(AnalyticModel, ItsIsotropicValuesAreIsotropic) {
+  const Case& c = GetParam();
+  const AnalyticValues& values = c.info->examples[c.example];
+  const BrdfPtr turned = c.info->make(c.info->isotropic(values));
+  EXPECT_TRUE(turned->traits().isotropic);
+  if (c.make()->traits().isotropic) {
+    EXPECT_EQ(c.info->isotropic(values), values);
+  }
+}
+
+TEST_P(AnalyticModel, ValuesPerChannelActOnTheirChannelAlone) {
+  const Case& c = GetParam();
+  AnalyticValues values = c.info->examples[c.example];
+  const BrdfPtr before = c.make();
+  std::size_t first = 0;
+  double changed = 0;
+  for (const AnalyticParameter& parameter : c.info->parameters) {
+    for (std::size_t channel = 0; parameter.per_channel && channel < 3; ++channel) {
+      const double kept = values[first + channel];
+      values[first + channel] = kept > 0 ? 0.5 * kept : 0.5;
+      const BrdfPtr after = c.info->make(values);
+      Rng rng(test::seed_of_this_test());
+      for (int n = 0; n < 200; ++n) {
+        const Vec3 wi = test::uniform_hemisphere(rng), wo = test::uniform_hemisphere(rng);
+        const Rgb change = (after->eval(wo, wi) - before->eval(wo, wi)).abs();
+        const double own = change[static_cast<Eigen::Index>(channel)];
+        changed += own;
+        ASSERT_EQ(change.sum(), own) << parameter.name << " " << channel;
+      }
+      values[first + channel] = kept;
+    }
+    first += parameter.per_channel ? 3 : 1;
+  }
+  EXPECT_GT(changed, 0);
+}
+
 TEST_P(AnalyticModel, AlbedoIsAsClaimed) {
   const BrdfPtr model = GetParam().make();
   const double bound = model->traits().albedo_bound;
