@@ -69,6 +69,9 @@ class Ggx final : public Brdf {
     return sizeof f0_ + (alpha_x_ == alpha_y_ ? 1 : 2) * sizeof(double);
   }
 
+  /// The mean of F over the cosine hemisphere, to weigh draws by.
+  [[nodiscard]] Rgb strength() const { return f0_ + (1 - f0_) / 21; }
+
  protected:
   [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
     const Vec3 stretched = Vec3(alpha_x_ * wo.x(), alpha_y_ * wo.y(), wo.z()).normalized();
