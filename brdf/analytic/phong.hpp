@@ -4,8 +4,9 @@
 ///     f_r = diffuse / pi + specular (n + 2) / (2 pi) cos^n(alpha), alpha between wi and the mirror direction of wo
 ///
 /// Lafortune and Willems 1994, "Using the modified Phong reflectance model for physically based rendering" (Report CW
-/// 197), after Lewis 1993, "Making Shaders More Physically Plausible". Phong 1975 has cos^n(alpha) as radiance, without
-/// the factor cos(theta_i) that f_r brings with it, and therefore divides by it, which is not reciprocal.
+/// 197); with other names for its values Lewis 1994, "Making Shaders More Physically Plausible", Computer Graphics
+/// Forum 13(2). Phong 1975 has cos^n(alpha) as radiance, without the factor cos(theta_i) that f_r brings with it, and
+/// therefore divides by it, which is not reciprocal.
 ///
 /// The lobe's albedo is `specular` at normal incidence, where cos(alpha) = cos(theta_i), and falls from there, since
 /// the lobe and max(0, cos(theta_i)) both fall with the angle from their axes. Draws follow cos^n(alpha) about the
@@ -62,7 +63,7 @@ inline AnalyticInfo info() {
   return {
       .name = "phong",
       .title = "Phong (modified)",
-      .source = "Lafortune and Willems 1994; Lewis 1993; Phong 1975",
+      .source = "Lafortune and Willems 1994; Lewis 1994; Phong 1975",
       .parameters = {{"diffuse", Lambert::kAlbedo, 0.2, true},
                      {"specular", PhongLobe::kSpecular, 0.2, true},
                      {"exponent", PhongLobe::kExponent, 50, false, SearchScale::logarithmic}},

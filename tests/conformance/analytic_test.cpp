@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string_view>
 
+#include "brdf/analytic/not_computable.hpp"
 #include "brdf/analytic/registry.hpp"
 #include "brdf/geometry/frame.hpp"
 #include "tests/support/sampler_check.hpp"
@@ -215,6 +217,19 @@ TEST(AnalyticRegistry, UnknownNameListsTheKnownOnes) {
     const std::string message = error.what();
     EXPECT_NE(message.find("'shiny'"), std::string::npos) << message;
     for (const AnalyticInfo& info : analytic::all()) EXPECT_NE(message.find(info.name), std::string::npos) << message;
+  }
+}
+
+TEST(NotComputable, EachSaysWhyInASentenceAndIsNotInTheList) {
+  std::set<std::string_view> names;
+  for (const analytic::NotComputable& entry : analytic::kNotComputable) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    EXPECT_NE(entry.source.find_first_of("12"), std::string_view::npos) << entry.name << ": a year";
+    ASSERT_FALSE(entry.why.empty());
+    EXPECT_EQ(entry.why.find('.'), entry.why.size() - 1) << entry.name << ": one sentence";
+    for (const AnalyticInfo& info : analytic::all()) {
+      EXPECT_EQ(info.source.find(entry.source), std::string::npos) << entry.name << " and " << info.name;
+    }
   }
 }
 
