@@ -21,6 +21,12 @@ constexpr std::size_t kRefined = 6;                    // how many go on with al
 constexpr int kRefinedEvaluations = 30;
 constexpr std::size_t kFinal = 3;  // and to the end
 
+/// A value that is not finite is worse than any that is.
+Evaluation evaluation(double value) {
+  if (std::isfinite(value)) return {.value = value};
+  return {.value = std::numeric_limits<double>::max(), .nonfinite = 1};
+}
+
 /// The objective as a function of the coordinates of some groups, the others kept.
 class Problem {
  public:
@@ -34,14 +40,14 @@ class Problem {
 
   /// Searches from z, which becomes the best point seen. Returns its value.
   double search(std::vector<double>& z, int evaluations, double tolerance) {
-    if (groups_.empty()) return evaluate(z);
+    if (groups_.empty()) return evaluate(z).value;
     at_ = z;
     Box box;
     for (const std::size_t n : free_coordinates()) {
       box.lower.push_back(space_.box().lower[n]);
       box.upper.push_back(space_.box().upper[n]);
     }
-    const auto objective = [&](const std::vector<double>& part) { return Evaluation{evaluate(whole(part))}; };
+    const auto objective = [&](const std::vector<double>& part) { return evaluate(whole(part)); };
     const auto gradient = [&](const std::vector<double>& part) { return slopes(whole(part)); };
     const MinimiseOptions options{.step = 0.3, .tolerance = tolerance, .max_evaluations = evaluations};
     const Minimum minimum = minimise(objective, part_of(z), box, options, gradient);
@@ -50,18 +56,19 @@ class Problem {
     return minimum.best.value;
   }
 
-  double evaluate(const std::vector<double>& z) {
+  Evaluation evaluate(const std::vector<double>& z) {
     last_z_ = z;
     last_ = channels(z);
-    return last_.mean();
+    return evaluation(last_.mean());
   }
 
   [[nodiscard]] int evaluations() const { return evaluations_; }
   [[nodiscard]] bool converged() const { return converged_; }
 
  private:
-  /// The objective of each channel.
+  /// The objective of each channel; NaN where the search has lost its way, which ends it.
   Rgb channels(const std::vector<double>& z) {
+    if (!std::ranges::all_of(z, [](double x) { return std::isfinite(x); })) return Rgb::Constant(std::nan(""));
     ++evaluations_;
     return error_(*info_.make(space_.values(z)), softness_);
   }
@@ -223,7 +230,7 @@ class MultiStart {
   }
 
   [[nodiscard]] double value(const std::vector<double>& z, double softness) const {
-    return error_(*info_.make(space_.values(z)), softness).mean();
+    return evaluation(error_(*info_.make(space_.values(z)), softness).mean()).value;
   }
 
   const AnalyticInfo& info_;

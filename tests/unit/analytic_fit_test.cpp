@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "brdf/analytic/fit_cells.hpp"
@@ -14,6 +15,7 @@
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
+#include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -75,6 +77,21 @@ TEST(AnalyticFit, TiesWhatAnisotropyTells) {
   EXPECT_TRUE(fit.brdf->traits().isotropic);
   EXPECT_EQ(fit.values[3], fit.values[4]);
   EXPECT_NEAR(fit.values[3], 0.3, 0.003);
+}
+
+TEST(AnalyticFit, LeavesAloneWhereAModelIsNotFinite) {
+  AnalyticInfo info;
+  info.name = "breaking";
+  info.parameters = {{"albedo", {0, 1}, 0.9}, {"rough", {0, 1}, 0.9}};
+  info.examples = {{0.5, 0.1}};
+  info.make_unchecked = [](const AnalyticValues& v) {
+    const double value = v[1] > 0.5 ? std::numeric_limits<double>::infinity() : v[0] * (1 + v[1]);
+    return std::make_shared<const test::FunctionBrdf>([=](const Vec3&, const Vec3&) { return Rgb::Constant(value); });
+  };
+  const AnalyticFit fit = fit_analytic(info, table_of("lambert", {0.5, 0.5, 0.5}), kShort);
+  EXPECT_LT(fit.objective, 1e-6);
+  EXPECT_NEAR(fit.values[0] * (1 + fit.values[1]), 0.5 / std::numbers::pi, 1e-4);
+  EXPECT_EQ(fit.starts.front().objective, std::numeric_limits<double>::max());
 }
 
 TEST(AnalyticFit, SaysThatATableIsBlack) {
