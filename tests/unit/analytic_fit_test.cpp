@@ -128,7 +128,7 @@ TEST(AnalyticFit, IsTheSameOnAnyNumberOfThreads) {
   const MeasuredTable table = builtin_material();
   const auto fit = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return fit_analytic(analytic::find("ggx"), table, kShort);
+    return fit_analytic(analytic::find("ggx"), table, {.shapes = 1, .evaluations = 3});
   };
   const AnalyticFit one = fit(1);
   const AnalyticFit two = fit(2);
