@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "brdf/analytic/fit_cells.hpp"
 #include "brdf/analytic/search_space.hpp"
@@ -19,7 +20,7 @@ constexpr double kDifference = 1e-7;                   // step of a slope
 constexpr int kColourEvaluations = 8;                  // of the first searches
 constexpr std::size_t kRefined = 6;                    // how many go on with all values
 constexpr int kRefinedEvaluations = 30;
-constexpr std::size_t kFinal = 3;  // and to the end
+constexpr std::size_t kSettled = 3, kFinal = 2;  // and until they settle, and to the end
 
 /// A value that is not finite is worse than any that is.
 Evaluation evaluation(double value) {
@@ -174,7 +175,7 @@ std::vector<Candidate> starts_of(const AnalyticInfo& info, const SearchSpace& sp
   return starts;
 }
 
-/// The whole search; `finish` is called once a local search, by any thread.
+/// The whole search: the values per channel from every start, then all values from ever fewer of the points found.
 class MultiStart {
  public:
   MultiStart(const AnalyticInfo& info, const BalancedError& error, const AnalyticFitOptions& options)
@@ -185,7 +186,9 @@ class MultiStart {
         starts_(starts_of(info, space_, static_cast<std::size_t>(options.shapes))) {}
 
   [[nodiscard]] int searches() const {
-    return static_cast<int>(starts_.size() + std::min(starts_.size(), kRefined) + std::min(starts_.size(), kFinal));
+    std::size_t sum = starts_.size();
+    for (const std::size_t kept : {kRefined, kSettled, kFinal}) sum += std::min(starts_.size(), kept);
+    return static_cast<int>(sum);
   }
 
   void run(AnalyticFit& fit, ProgressCounter& counter) {
@@ -201,10 +204,16 @@ class MultiStart {
       improve(info_, space_, error_, kSoftness.front(), false, kRefinedEvaluations, c);
     });
     count(best, fit);
-    keep_best(best, kFinal);
+    keep_best(best, kSettled);
     const int evaluations = options_.evaluations * static_cast<int>(space_.size());
+    each(best, counter,
+         [&](Candidate& c, std::size_t) { improve(info_, space_, error_, kSoftness.front(), false, evaluations, c); });
+    count(best, fit);
+    keep_best(best, kFinal);
     each(best, counter, [&](Candidate& c, std::size_t) {
-      for (const double softness : kSoftness) improve(info_, space_, error_, softness, false, evaluations, c);
+      for (std::size_t n = 1; n < kSoftness.size(); ++n) {
+        improve(info_, space_, error_, kSoftness[n], false, evaluations, c);
+      }
     });
     count(best, fit);
     fit.evaluations += static_cast<int>(starts_.size());

@@ -46,7 +46,7 @@ struct AnalyticFit {
 /// best of them, in stages in which the absolute values of the objective become sharper, by SLSQP with differences as
 /// slopes. Parameters with isotropic_as stay tied, so that an anisotropic model is fitted as an isotropic one. Runs on
 /// the threads of oneTBB; the same for any number of them. About a second of processor time for a model of one lobe,
-/// up to nine for one of three.
+/// up to seven for one of three.
 /// @throws std::invalid_argument for options out of range, and as fit_cells does for the table.
 [[nodiscard]] AnalyticFit fit_analytic(const AnalyticInfo& info, const MeasuredTable& table,
                                        const AnalyticFitOptions& options = {}, const Progress& progress = {});
