@@ -21,6 +21,7 @@ using RgbRows = Eigen::ArrayX3d;                          ///< n x 3, red green 
 struct Traits {
   bool reciprocal = true;     ///< eval(wo, wi) and eval(wi, wo) agree to the last bit
   bool isotropic = true;      ///< eval does not change when both directions turn about z
+  bool non_negative = true;   ///< eval is nowhere below 0; series and truncated bases can be, and are not clamped
   double albedo_bound = 0.0;  ///< upper bound of the directional albedo, 0 = no claim
 };
 
@@ -41,7 +42,8 @@ class Brdf {
  public:
   virtual ~Brdf() = default;
 
-  /// f_r(wi, wo) in 1/sr per channel, 0 when either direction is below the horizon (z <= 0). Never negative, never NaN.
+  /// f_r(wi, wo) in 1/sr per channel, 0 when either direction is below the horizon (z <= 0). Finite, never NaN; never
+  /// negative where Traits::non_negative is claimed.
   [[nodiscard]] virtual Rgb eval(const Vec3& wo, const Vec3& wi) const = 0;
 
   /// Row by row the same numbers as the single call. @param wo, wi n x 3. @return n x 3.

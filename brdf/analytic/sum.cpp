@@ -27,6 +27,7 @@ Traits Sum::traits() const {
   const bool bounded = a.albedo_bound > 0 && b.albedo_bound > 0;
   return {.reciprocal = a.reciprocal && b.reciprocal,
           .isotropic = a.isotropic && b.isotropic,
+          .non_negative = a.non_negative && b.non_negative,
           .albedo_bound = bounded ? a.albedo_bound + b.albedo_bound : 0.0};
 }
 
