@@ -2,9 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
+#include <cmath>
+#include <numbers>
+
 #include "brdf/analytic/synthetic.hpp"
+#include "brdf/basis/fill.hpp"
+#include "brdf/basis/half_array.hpp"
+#include "brdf/basis/low_rank.hpp"
 #include "brdf/basis/registry.hpp"
+#include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
+#include "copula/random.hpp"
+#include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -20,6 +30,28 @@ void for_some_cells(const MeasuredTable& table, const Visit& visit) {
   }
 }
 
+MeasuredTable table_of(const test::FunctionBrdf::Formula& formula) {
+  return tabulate(test::FunctionBrdf(formula), "formula", Provenance::synthetic);
+}
+
+/// Sum of |g - f| over that of f, green channel, over some cells with both angles below 80 degrees.
+double relative_error(const Brdf& model, const MeasuredTable& table) {
+  double sum = 0, difference = 0;
+  for_some_cells(table, [&](std::size_t n, const DirectionPair& pair) {
+    if (std::min(pair.wi.z(), pair.wo.z()) < 0.17) return;
+    difference += std::abs(model.eval(pair.wo, pair.wi)[1] - table.values[1][n]);
+    sum += table.values[1][n];
+  });
+  return difference / sum;
+}
+
+Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns) {
+  Rng rng(1);
+  Eigen::MatrixXd matrix(rows, columns);
+  for (double& value : matrix.reshaped()) value = uniform(rng);
+  return matrix;
+}
+
 TEST(BasisTable, HoldsItsCells) {
   const MeasuredTable table = builtin_material();
   const BrdfPtr model = basis::find("table").fit({.table = table}, std::numeric_limits<double>::infinity());
@@ -27,6 +59,77 @@ TEST(BasisTable, HoldsItsCells) {
   for_some_cells(table, [&](std::size_t n, const DirectionPair& pair) {
     EXPECT_NEAR(model->eval(pair.wo, pair.wi)[1], table.values[1][n], 1e-9 * table.values[1][n]);
   });
+}
+
+TEST(HalfArray, IsWithinItsStatedError) {
+  const std::vector<double> values = {-1e6, 1e6, 123.456, -61, 1e-3, 1e-9, 0};
+  const HalfArray array(values);
+  EXPECT_EQ(array.bytes(), 4 + 2 * values.size());
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    EXPECT_NEAR(array[n], values[n], std::max(5e-4 * std::abs(values[n]), 3e-8 * 1e6)) << values[n];
+  }
+  EXPECT_EQ(HalfArray(std::vector<double>(3))[1], 0);
+}
+
+/// A linear function of the cell's indices away from the ends of phi_d is its own mean of neighbours.
+TEST(Filled, ContinuesValidCells) {
+  MeasuredTable table = builtin_material();
+  table.valid.assign(Grid::cells, 1);
+  for (auto& plane : table.values) plane.assign(Grid::cells, 0.0);
+  for (int i = 0; i < Grid::theta_h; ++i) {
+    for (int j = 0; j < Grid::theta_d; ++j) {
+      for (int k = 0; k < Grid::phi_d; ++k) {
+        const auto n = static_cast<std::size_t>(Grid::index(i, j, k));
+        table.values[1][n] = 1 + i + 2 * j;
+        if (i % 2 == 1 && j % 2 == 1 && k % 2 == 1 && i < 89 && j < 89) {
+          table.valid[n] = 0;
+          table.values[1][n] = 1e9;
+        }
+      }
+    }
+  }
+  const MeasuredTable result = filled(table);
+  EXPECT_EQ(result.valid_cells(), static_cast<std::size_t>(Grid::cells));
+  for (int i = 0; i < Grid::theta_h; ++i) {
+    const auto n = static_cast<std::size_t>(Grid::index(i, 41, 61));
+    EXPECT_NEAR(result.values[1][n], 1 + i + 82, 1e-9) << i;
+  }
+}
+
+/// Eckart and Young 1936: the error of the best product of rank k is the sum of the squares of the other singular
+/// values.
+TEST(LowRank, IsTheTruncatedDecomposition) {
+  const Eigen::MatrixXd values = random_matrix(20, 40);
+  const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(20, 40);
+  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(values).singularValues();
+  for (const int rank : {1, 3, 20}) {
+    const LowRank product = low_rank(values, ones, rank, 2);
+    EXPECT_NEAR((values - product.rows * product.columns.transpose()).squaredNorm(),
+                singular.tail(20 - rank).squaredNorm(), 1e-9);
+    for (int k = 0; k < rank; ++k) EXPECT_NEAR(product.columns.col(k).norm(), singular[k], 1e-6) << k;
+  }
+}
+
+TEST(LowRank, TakesNoNoticeOfWhatHasNoWeight) {
+  const Eigen::MatrixXd product = random_matrix(20, 2) * random_matrix(2, 40);
+  Eigen::MatrixXd values = product, weights = Eigen::MatrixXd::Ones(20, 40);
+  for (Eigen::Index n = 0; n < 20; ++n) {
+    values(n, 2 * n) += 5;
+    weights(n, 2 * n) = 1e-12;
+  }
+  const LowRank found = low_rank(values, weights, 2, 50);
+  EXPECT_LT((found.rows * found.columns.transpose() - product).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SeparableSvd, HoldsASeparableTable) {
+  const MeasuredTable table = table_of([](const Vec3& wo, const Vec3& wi) -> Rgb {
+    const HalfDifference at = half_difference(wo, wi);
+    const double of_half = std::exp(-4 * at.theta_h * at.theta_h);
+    const double of_difference = 1 + std::pow(std::sin(at.theta_d), 2) * std::cos(2 * at.phi_d);
+    return Rgb(0.1, 0.2, 0.3) * of_half * (0.5 + of_difference);
+  });
+  const BrdfPtr model = basis::find("separable_svd").fit({.table = table}, 10000);
+  EXPECT_LT(relative_error(*model, table), 5e-3);  // interpolation between 45 nodes, and half precision
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+#pragma once
+/// Valid cells of a table with their directions, spread evenly, and the error of a model over them.
+
+#include <vector>
+
+#include "brdf/data/measured_table.hpp"
+
+namespace sklar::brdf {
+
+struct FitCell {
+  Vec3 wo, wi;  ///< above the horizon; wi is the direction at phi_d
+  Rgb value;    ///< f_r, 1/sr
+};
+
+/// About so many of the valid cells above the horizon, every n-th of them with n prime to the sides of the grid; all if
+/// there are fewer. @throws std::invalid_argument if there is none.
+[[nodiscard]] std::vector<FitCell> spread_cells(const MeasuredTable& table, std::size_t about);
+
+/// Mean over cells and channels of |ln(1 + f cos_i) - ln(1 + g cos_i)|, a negative g counting as 0: by it a model's
+/// structure is chosen within a budget, whatever its coefficients are fitted by.
+[[nodiscard]] double log_error(const Brdf& model, const std::vector<FitCell>& cells);
+
+}  // namespace sklar::brdf
