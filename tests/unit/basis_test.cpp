@@ -13,6 +13,7 @@
 #include "brdf/basis/registry.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
+#include "brdf/geometry/frame.hpp"
 #include "copula/random.hpp"
 #include "tests/support/function_brdf.hpp"
 
@@ -130,6 +131,16 @@ TEST(SeparableSvd, HoldsASeparableTable) {
   });
   const BrdfPtr model = basis::find("separable_svd").fit({.table = table}, 10000);
   EXPECT_LT(relative_error(*model, table), 5e-3);  // interpolation between 45 nodes, and half precision
+}
+
+TEST(Homomorphic, HoldsAProduct) {
+  const MeasuredTable table = table_of([](const Vec3& wo, const Vec3& wi) -> Rgb {
+    const double theta_h = polar_angle(wi + wo);
+    const double p = (0.2 + wi.z()) * (0.2 + wo.z());
+    return Rgb(0.1, 0.2, 0.3) * p * (0.1 + std::exp(-9 * theta_h * theta_h));
+  });
+  const BrdfPtr model = basis::find("homomorphic").fit({.table = table}, 1100);
+  EXPECT_LT(relative_error(*model, table), 1e-2);  // interpolation of logarithms, and half precision
 }
 
 }  // namespace
