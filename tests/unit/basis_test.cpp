@@ -10,6 +10,7 @@
 #include "brdf/basis/fill.hpp"
 #include "brdf/basis/half_array.hpp"
 #include "brdf/basis/low_rank.hpp"
+#include "brdf/basis/nmf_fit.hpp"
 #include "brdf/basis/registry.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
@@ -141,6 +142,50 @@ TEST(Homomorphic, HoldsAProduct) {
   });
   const BrdfPtr model = basis::find("homomorphic").fit({.table = table}, 1100);
   EXPECT_LT(relative_error(*model, table), 1e-2);  // interpolation of logarithms, and half precision
+}
+
+double divergence(const Eigen::MatrixXd& values, const NonNegativeFactors& factors) {
+  const Eigen::ArrayXXd z = (factors.outer * factors.inner).array();
+  return (values.array() * (values.array() / z).log() - values.array() + z).sum();
+}
+
+/// Lee and Seung 2001, Theorem 2: no update raises the divergence, and a matrix of the rank asked for is a fixed point.
+TEST(NonNegativeFactors, LessenTheDivergence) {
+  const Eigen::MatrixXd values = random_matrix(12, 30);
+  const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(12, 30);
+  double previous = std::numeric_limits<double>::infinity();
+  for (const int updates : {0, 1, 2, 4, 8, 50}) {
+    const NonNegativeFactors factors = non_negative_factors(values, ones, 3, updates);
+    EXPECT_GE(factors.outer.minCoeff(), 0);
+    EXPECT_GE(factors.inner.minCoeff(), 0);
+    const double here = divergence(values, factors);
+    EXPECT_LT(here, previous) << updates;
+    previous = here;
+  }
+  const Eigen::MatrixXd product = random_matrix(12, 1) * random_matrix(1, 30);
+  EXPECT_LT(divergence(product, non_negative_factors(product, ones, 1, 5)), 1e-12);
+}
+
+/// f cos_i of its own form: with the sampler drawing in proportion, f cos_i 4 (wo.h) / weight is one constant.
+TEST(Nmf, HoldsASeparableTableAndDrawsInProportion) {
+  const MeasuredTable table = table_of([](const Vec3& wo, const Vec3& wi) -> Rgb {
+    const double theta_h = polar_angle(wi + wo);
+    return Rgb(0.1, 0.2, 0.3) * (0.1 + std::exp(-9 * theta_h * theta_h)) / (wi.z() * wo.z() + 1e-3);
+  });
+  const BrdfPtr model = basis::find("nmf").fit({.table = table}, 5000);
+  EXPECT_LT(relative_error(*model, table), 0.05);  // 1 / cos(theta_o) between 24 nodes
+  const Vec3 wo = spherical_direction(0.7, 0.3);
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  Rng rng(1);
+  for (int n = 0; n < 1000; ++n) {
+    const double first = uniform(rng);
+    const Sample draw = model->sample(wo, {first, uniform(rng)});
+    if (!(draw.wi.z() > 0.2)) continue;
+    const double ratio = draw.weight[1] / (4 * wo.dot((draw.wi + wo).normalized()));
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  EXPECT_LT(most / least, 1.25);  // p is the mean over a bin of the nodes
 }
 
 }  // namespace
