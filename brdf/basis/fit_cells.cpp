@@ -1,5 +1,7 @@
 #include "brdf/basis/fit_cells.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -27,12 +29,18 @@ std::vector<FitCell> spread_cells(const MeasuredTable& table, std::size_t about)
 }
 
 double log_error(const Brdf& model, const std::vector<FitCell>& cells) {
-  double sum = 0;
+  const double cos_80 = std::cos(80 * std::numbers::pi / 180);
+  double inside = 0, all = 0;
+  std::size_t count = 0;
   for (const FitCell& cell : cells) {
     const Rgb g = model.eval(cell.wo, cell.wi).max(0.0);
-    sum += ((cell.value * cell.wi.z()).log1p() - (g * cell.wi.z()).log1p()).abs().mean();
+    const double error = ((cell.value * cell.wi.z()).log1p() - (g * cell.wi.z()).log1p()).abs().mean();
+    all += error;
+    if (std::min(cell.wi.z(), cell.wo.z()) < cos_80) continue;
+    inside += error;
+    ++count;
   }
-  return sum / static_cast<double>(cells.size());
+  return count > 0 ? inside / static_cast<double>(count) : all / static_cast<double>(cells.size());
 }
 
 }  // namespace sklar::brdf

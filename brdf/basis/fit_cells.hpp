@@ -16,8 +16,9 @@ struct FitCell {
 /// there are fewer. @throws std::invalid_argument if there is none.
 [[nodiscard]] std::vector<FitCell> spread_cells(const MeasuredTable& table, std::size_t about);
 
-/// Mean over cells and channels of |ln(1 + f cos_i) - ln(1 + g cos_i)|, a negative g counting as 0: by it a model's
-/// structure is chosen within a budget, whatever its coefficients are fitted by.
+/// Mean of |ln(1 + f cos_i) - ln(1 + g cos_i)| over channels and the cells with both angles at most 80 degrees, all
+/// cells if there is none; a negative g counts as 0. By it a model's structure is chosen within a budget, whatever its
+/// coefficients are fitted by.
 [[nodiscard]] double log_error(const Brdf& model, const std::vector<FitCell>& cells);
 
 }  // namespace sklar::brdf
