@@ -132,7 +132,7 @@ inline void expect_consistent(const brdf::Brdf& model, const brdf::Vec3& wo, con
   ASSERT_GT(draw.pdf, 0) << "a draw where the density is 0";
   ASSERT_EQ(draw.pdf, model.pdf(wo, draw.wi));
   const brdf::Rgb value = model.eval(wo, draw.wi) * draw.wi.z();
-  ASSERT_TRUE(((draw.weight * draw.pdf - value).abs() <= 1e-14 * value).all());
+  ASSERT_TRUE(((draw.weight * draw.pdf - value).abs() <= 1e-14 * value.abs()).all());
 }
 
 /// @return the integral of pdf over the hemisphere; the rest is the share of draws below the horizon.

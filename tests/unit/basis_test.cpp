@@ -188,5 +188,23 @@ TEST(Nmf, HoldsASeparableTableAndDrawsInProportion) {
   EXPECT_LT(most / least, 1.25);  // p is the mean over a bin of the nodes
 }
 
+/// A table that is one of those learnt from, under another name, is a sum of all components but for their
+/// interpolation.
+TEST(Pca, HoldsWhatItHasLearnt) {
+  std::vector<std::shared_ptr<const MeasuredTable>> others;
+  for (const double sharpness : {1.0, 4.0}) {
+    others.push_back(std::make_shared<const MeasuredTable>(table_of([=](const Vec3& wo, const Vec3& wi) -> Rgb {
+      const double theta_h = polar_angle(wi + wo);
+      return Rgb(0.1, 0.2, 0.4) + sharpness * std::exp(-sharpness * theta_h * theta_h);
+    })));
+  }
+  MeasuredTable table = *others[1];
+  table.name = "known";
+  const BasisInfo& info = basis::find("pca");
+  EXPECT_LT(relative_error(*info.fit({.table = table, .others = others}, 60000), table), 0.02);
+  const std::vector others_short = {others[0]};
+  EXPECT_THROW((void)info.fit({.table = table, .others = others_short}, 60000), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace sklar::brdf
