@@ -12,6 +12,7 @@
 #include "brdf/basis/low_rank.hpp"
 #include "brdf/basis/nmf_fit.hpp"
 #include "brdf/basis/registry.hpp"
+#include "brdf/basis/spherical_harmonics.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
 #include "brdf/geometry/frame.hpp"
@@ -204,6 +205,37 @@ TEST(Pca, HoldsWhatItHasLearnt) {
   EXPECT_LT(relative_error(*info.fit({.table = table, .others = others}, 60000), table), 0.02);
   const std::vector others_short = {others[0]};
   EXPECT_THROW((void)info.fit({.table = table, .others = others_short}, 60000), std::invalid_argument);
+}
+
+/// Integral over z = cos(theta) from `lowest` to 1 and all azimuths of R_mj R_mk cos^2(m phi), times 2 for m > 0 where
+/// the norm is that of the spherical harmonics.
+Eigen::MatrixXd gram(const RadialFunctions& radial, int order, int m, double lowest, double azimuths) {
+  constexpr int kNodes = 20000;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(radial.count(order, m), radial.count(order, m));
+  Eigen::VectorXd values(sum.rows());
+  for (int n = 0; n < kNodes; ++n) {
+    const double z = lowest + (n + 0.5) / kNodes * (1 - lowest);
+    radial.values(order, m, {std::sqrt(1 - z * z), 0, z}, values.data());
+    sum += values * values.transpose();
+  }
+  return sum * ((1 - lowest) / kNodes * azimuths);
+}
+
+TEST(SphericalHarmonics, AreOrthonormalOverTheSphere) {
+  for (const int m : {0, 1, 2, 7, 12}) {
+    const Eigen::MatrixXd found = gram(SphericalHarmonics::radial(), 12, m, -1, 2 * std::numbers::pi);
+    EXPECT_LT((found - Eigen::MatrixXd::Identity(found.rows(), found.cols())).cwiseAbs().maxCoeff(), 1e-4) << m;
+  }
+  const Vec3 w(0.48, 0.64, 0.6);  // Y_2^0 = sqrt(5 / pi) / 4 (3 z^2 - 1)
+  std::array<double, 3> values{};
+  SphericalHarmonics::radial().values(2, 0, w, values.data());
+  EXPECT_NEAR(values[2], 0.25 * std::sqrt(5 / std::numbers::pi) * (3 * 0.36 - 1), 1e-15);
+}
+
+TEST(SphericalHarmonics, HoldTheirOwn) {
+  EXPECT_EQ((SeriesShape{SphericalHarmonics::radial(), 2, false}.coefficients()), 14U);
+  const MeasuredTable lambert = table_of([](const Vec3&, const Vec3&) -> Rgb { return {0.1, 0.2, 0.3}; });
+  EXPECT_LT(relative_error(*basis::find("spherical_harmonics").fit({.table = lambert}, 200), lambert), 1e-3);
 }
 
 }  // namespace
