@@ -13,6 +13,7 @@
 #include "brdf/basis/nmf_fit.hpp"
 #include "brdf/basis/registry.hpp"
 #include "brdf/basis/spherical_harmonics.hpp"
+#include "brdf/basis/zernike.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
 #include "brdf/geometry/frame.hpp"
@@ -236,6 +237,39 @@ TEST(SphericalHarmonics, HoldTheirOwn) {
   EXPECT_EQ((SeriesShape{SphericalHarmonics::radial(), 2, false}.coefficients()), 14U);
   const MeasuredTable lambert = table_of([](const Vec3&, const Vec3&) -> Rgb { return {0.1, 0.2, 0.3}; });
   EXPECT_LT(relative_error(*basis::find("spherical_harmonics").fit({.table = lambert}, 200), lambert), 1e-3);
+}
+
+TEST(Zernike, FunctionsAreOrthonormalOverTheHemisphere) {
+  for (const int m : {0, 1, 2, 7, 12}) {
+    const double azimuths = std::numbers::pi * (m == 0 ? 2 : 1);
+    const Eigen::MatrixXd found = gram(Zernike::radial(), 12, m, 0, azimuths);
+    EXPECT_LT((found - Eigen::MatrixXd::Identity(found.rows(), found.cols())).cwiseAbs().maxCoeff(), 1e-4) << m;
+  }
+  const Vec3 w(0.48, 0.64, 0.6);  // R_4^2 = 4 r^4 - 3 r^2, r^2 = 0.4
+  std::array<double, 2> values{};
+  Zernike::radial().values(4, 2, w, values.data());
+  EXPECT_NEAR(values[1], std::sqrt(5 / std::numbers::pi) * (4 * 0.16 - 3 * 0.4), 1e-15);
+}
+
+/// Koenderink, van Doorn and Stavridi 1996: 5 isotropic reciprocal modes up to order 2, 14 up to 4, 55 up to 8.
+TEST(Zernike, ModesNumberAsPublished) {
+  const auto modes = [](int order) { return SeriesShape{Zernike::radial(), order, true}.coefficients(); };
+  EXPECT_EQ(modes(0), 1U);
+  EXPECT_EQ(modes(2), 5U);
+  EXPECT_EQ(modes(4), 14U);
+  EXPECT_EQ(modes(8), 55U);
+}
+
+TEST(Zernike, HoldsItsOwnModes) {
+  const MeasuredTable table = table_of([](const Vec3& wo, const Vec3& wi) -> Rgb {
+    std::array<double, 1> of_wo{}, of_wi{};
+    Zernike::radial().values(1, 1, wo, of_wo.data());
+    Zernike::radial().values(1, 1, wi, of_wi.data());
+    const double cosine =
+        (wi.x() * wo.x() + wi.y() * wo.y()) / (std::hypot(wi.x(), wi.y()) * std::hypot(wo.x(), wo.y()));
+    return Rgb(0.4, 0.5, 0.6) + 0.2 * of_wo[0] * of_wi[0] * cosine;
+  });
+  EXPECT_LT(relative_error(*basis::find("zernike").fit({.table = table}, 6 * 5 + 13), table), 1e-3);
 }
 
 }  // namespace
