@@ -1,6 +1,7 @@
 #pragma once
 /// Valid cells of a table with their directions, spread evenly, and the error of a model over them.
 
+#include <cmath>
 #include <vector>
 
 #include "brdf/data/measured_table.hpp"
@@ -20,5 +21,11 @@ struct FitCell {
 /// cells if there is none; a negative g counts as 0. By it a model's structure is chosen within a budget, whatever its
 /// coefficients are fitted by.
 [[nodiscard]] double log_error(const Brdf& model, const std::vector<FitCell>& cells);
+
+/// Weight of (g - f)^2, per channel, that makes it (ln(1 + f c) - ln(1 + g c))^2 to first order: (c / (1 + f c))^2 with
+/// c^2 = cos_i cos_o. @param cosines cos_i cos_o.
+[[nodiscard]] inline Rgb log_weight(const Rgb& f, double cosines) {
+  return cosines / (1 + f * std::sqrt(cosines)).square();
+}
 
 }  // namespace sklar::brdf

@@ -48,7 +48,7 @@ namespace basis::separable_svd {
 namespace {
 
 constexpr std::size_t kChoosingCells = 20000;
-constexpr int kSweeps = 4;             ///< the error of the eighth is within a percent of the fourth's
+constexpr int kSweeps = 4;             ///< eight change log1p_mae by less than a tenth, either way
 constexpr double kLeastWeight = 1e-3;  ///< cells below the horizon hold continued values that interpolation reads
 
 /// The values on the nodes: rows (channel, theta_h), columns (theta_d, phi_d); and their weights.
@@ -67,10 +67,10 @@ Nodes nodes_of(const TableBrdf& table, const CellGrid& grid) {
         const Rgb value = table.at(centre);
         const DirectionPair pair = directions(centre);
         const bool above = pair.wi.z() > 0 && pair.wo.z() > 0;
-        const double weight = above ? std::max(pair.wi.z() * pair.wo.z(), kLeastWeight) : kLeastWeight;
+        const Rgb weight = log_weight(value, above ? std::max(pair.wi.z() * pair.wo.z(), kLeastWeight) : kLeastWeight);
         for (int channel = 0; channel < 3; ++channel) {
           nodes.values(channel * grid.theta_h + i, j * grid.phi_d + k) = value[channel];
-          nodes.weights(channel * grid.theta_h + i, j * grid.phi_d + k) = weight;
+          nodes.weights(channel * grid.theta_h + i, j * grid.phi_d + k) = weight[channel];
         }
       }
     }

@@ -8,8 +8,8 @@
 /// section 4: over half and difference vectors instead of wi and wo. For isotropic data a function of the half vector
 /// is one of theta_h alone when the difference vector is taken in the frame of h (Rusinkiewicz 1998).
 ///
-/// Fitted to f_r in linear space, by least squares over the cells with weight cos_i cos_o; the three channels are rows
-/// of one matrix, so that they share v. u stands on nodes in sqrt(theta_h), v on nodes in theta_d and phi_d, both
+/// Fitted to f_r in linear space, by least squares over the nodes with log_weight; the three channels are rows of one
+/// matrix, so that they share v. u stands on nodes in sqrt(theta_h), v on nodes in theta_d and phi_d, both
 /// interpolated linearly; of rank and numbers of nodes that the budget allows, those with the least log_error are
 /// taken. Truncated, the sum can be negative. Reciprocal, since exchanging wi and wo turns phi_d by pi, the period.
 
