@@ -13,6 +13,7 @@
 #include "brdf/basis/nmf_fit.hpp"
 #include "brdf/basis/registry.hpp"
 #include "brdf/basis/spherical_harmonics.hpp"
+#include "brdf/basis/wavelets.hpp"
 #include "brdf/basis/zernike.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/geometry/coordinates.hpp"
@@ -270,6 +271,39 @@ TEST(Zernike, HoldsItsOwnModes) {
     return Rgb(0.4, 0.5, 0.6) + 0.2 * of_wo[0] * of_wi[0] * cosine;
   });
   EXPECT_LT(relative_error(*basis::find("zernike").fit({.table = table}, 6 * 5 + 13), table), 1e-3);
+}
+
+/// The first halving is across phi_d, the longest side: a table of two values along it has one coefficient.
+TEST(Wavelets, HoldAStepByOneCoefficient) {
+  MeasuredTable table = builtin_material();
+  for (int cell = 0; cell < Grid::cells; ++cell) {
+    for (auto& plane : table.values) plane[static_cast<std::size_t>(cell)] = cell % Grid::phi_d < 90 ? 0.25 : 1;
+  }
+  const BrdfPtr model = basis::find("wavelets").fit({.table = table}, static_cast<double>(Wavelets::bytes(1)));
+  EXPECT_EQ(model->bytes(), Wavelets::bytes(1));
+  for_some_cells(table, [&](std::size_t n, const DirectionPair& pair) {
+    EXPECT_NEAR(model->eval(pair.wo, pair.wi)[1], table.values[1][n], 1e-6);
+  });
+}
+
+/// With all coefficients the wavelets are the table, but for rounding, which the means of small boxes have from the
+/// coefficients of large ones.
+TEST(Wavelets, HoldEveryCellWithoutALimit) {
+  const MeasuredTable table = builtin_material();
+  const BrdfPtr model = basis::find("wavelets").fit({.table = table}, std::numeric_limits<double>::infinity());
+  EXPECT_GT(model->bytes(), Wavelets::bytes(1000000));
+  EXPECT_LE(model->bytes(), Wavelets::bytes(Grid::cells - 1));
+  EXPECT_LT(relative_error(*model, table), 1e-2);
+}
+
+TEST(Wavelets, RefuseBitsThatAreNotATree) {
+  Wavelets::Tree tree;
+  const std::vector<double> one = {1};
+  tree.difference = {HalfArray(one), HalfArray(one), HalfArray(one)};
+  tree.halved = {0};
+  EXPECT_NO_THROW((void)Wavelets(tree));
+  tree.halved = {1};
+  EXPECT_THROW((void)Wavelets(tree), std::invalid_argument);
 }
 
 }  // namespace
