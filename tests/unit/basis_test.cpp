@@ -9,6 +9,7 @@
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/basis/fill.hpp"
 #include "brdf/basis/half_array.hpp"
+#include "brdf/basis/linear_explanatory.hpp"
 #include "brdf/basis/low_rank.hpp"
 #include "brdf/basis/nmf_fit.hpp"
 #include "brdf/basis/registry.hpp"
@@ -304,6 +305,19 @@ TEST(Wavelets, RefuseBitsThatAreNotATree) {
   EXPECT_NO_THROW((void)Wavelets(tree));
   tree.halved = {1};
   EXPECT_THROW((void)Wavelets(tree), std::invalid_argument);
+}
+
+/// A polynomial of degree 2 in the variables is one of degree 2 in their components.
+TEST(LinearExplanatory, HoldsAPolynomialOfItsVariables) {
+  EXPECT_EQ(LinearExplanatory::terms(2), 15U);
+  EXPECT_EQ(LinearExplanatory::terms(8), 495U);
+  const MeasuredTable table = table_of([](const Vec3& wo, const Vec3& wi) -> Rgb {
+    const auto x = ExplanatoryComponents::variables(wo, wi);
+    return Rgb(0.4, 0.5, 0.6) + x[0] * x[1] - 0.1 * x[3] + 0.2 * x[2] * x[2];
+  });
+  const BrdfPtr model =
+      basis::find("linear_explanatory").fit({.table = table}, static_cast<double>(LinearExplanatory::bytes(2)));
+  EXPECT_LT(relative_error(*model, table), 2e-3);  // half precision
 }
 
 }  // namespace
