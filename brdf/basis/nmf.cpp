@@ -231,8 +231,9 @@ constexpr double kBelowHorizon = 0.01;  ///< weight of a node that only interpol
 
 Target target_of(const TableBrdf& table, const NmfNodes& nodes) {
   Target target;
-  target.values.setZero(3 * nodes.theta_o, nodes.theta_h * nodes.phi_h);
-  target.weights.setConstant(3 * nodes.theta_o, nodes.theta_h * nodes.phi_h, kBelowHorizon);
+  const Eigen::Index rows = Eigen::Index{3} * nodes.theta_o, columns = Eigen::Index{nodes.theta_h} * nodes.phi_h;
+  target.values.setZero(rows, columns);
+  target.weights.setConstant(rows, columns, kBelowHorizon);
   for (int a = 0; a < nodes.theta_o; ++a) {
     const Vec3 wo = spherical_direction(a * kLargestTheta / (nodes.theta_o - 1), 0);
     for (int b = 0; b < nodes.theta_h; ++b) {

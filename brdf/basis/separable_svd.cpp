@@ -58,7 +58,7 @@ struct Nodes {
 
 Nodes nodes_of(const TableBrdf& table, const CellGrid& grid) {
   Nodes nodes;
-  nodes.values.resize(3 * grid.theta_h, grid.theta_d * grid.phi_d);
+  nodes.values.resize(Eigen::Index{3} * grid.theta_h, Eigen::Index{grid.theta_d} * grid.phi_d);
   nodes.weights.resizeLike(nodes.values);
   for (int i = 0; i < grid.theta_h; ++i) {
     for (int j = 0; j < grid.theta_d; ++j) {

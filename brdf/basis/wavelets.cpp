@@ -59,13 +59,15 @@ Wavelets::Wavelets(Tree tree) : tree_(std::move(tree)) {
     ones_before_.push_back(ones);
     ones += static_cast<std::uint32_t>(std::popcount(word));
   }
-  const bool sound = count > 0 && tree_.difference[1].size() == count && tree_.difference[2].size() == count &&
-                     tree_.halved.size() == words(count) && ones + std::size_t{1} == count;
+  bool sound = count > 0 && tree_.halved.size() == words(count) && ones + std::size_t{1} == count;
+  for (std::size_t c = 0; c < 3; ++c) {
+    sound = sound && tree_.difference[c].size() == count && tree_.rest[c].size() == refined(count);
+  }
   if (!sound) throw std::invalid_argument("Wavelets: the bits do not describe the coefficients");
 }
 
 std::size_t Wavelets::bytes(std::size_t coefficients) {
-  return 3 * sizeof(float) + 3 * HalfArray::bytes(coefficients) +
+  return 3 * sizeof(float) + 3 * HalfArray::bytes(coefficients) + 3 * HalfArray::bytes(refined(coefficients)) +
          words(coefficients) * (sizeof(std::uint64_t) + sizeof(std::uint32_t));
 }
 
@@ -81,7 +83,8 @@ Rgb Wavelets::eval(const Vec3& wo, const Vec3& wi) const {
     const Box half = box.half(second);
     const double other = 1 - static_cast<double>(half.side(axis)) / box.side(axis);
     for (std::size_t c = 0; c < 3; ++c) {
-      value[static_cast<int>(c)] += (second ? -other : other) * tree_.difference[c][node];
+      const double rest = node < tree_.rest[c].size() ? tree_.rest[c][node] : 0;
+      value[static_cast<int>(c)] += (second ? -other : other) * (tree_.difference[c][node] + rest);
     }
     const std::size_t bit = 2 * node + (second ? 1 : 0);
     const std::uint64_t word = tree_.halved[bit / 64];
@@ -117,7 +120,7 @@ class Transform {
     };
     std::vector<Node> nodes = {{{}, 0}};
     std::array<std::vector<double>, 3> kept;
-    Wavelets::Tree tree{.mean = mean_.cast<float>(), .difference = {}, .halved = {}};
+    Wavelets::Tree tree{.mean = mean_.cast<float>(), .difference = {}, .rest = {}, .halved = {}};
     std::vector<std::size_t> bits;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const auto [box, index] = nodes[n];
@@ -135,7 +138,12 @@ class Transform {
     }
     tree.halved.assign(words(nodes.size()), 0);
     for (const std::size_t bit : bits) tree.halved[bit / 64] |= std::uint64_t{1} << (bit % 64);
-    for (std::size_t c = 0; c < 3; ++c) tree.difference[c] = HalfArray(kept[c]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      tree.difference[c] = HalfArray(kept[c]);
+      kept[c].resize(Wavelets::refined(kept[c].size()));
+      for (std::size_t n = 0; n < kept[c].size(); ++n) kept[c][n] -= tree.difference[c][n];
+      tree.rest[c] = HalfArray(kept[c]);
+    }
     return tree;
   }
 

@@ -10,8 +10,9 @@
 /// Fitted to f_r in linear space; those coefficients stay that have, or stand above one that has, the largest share of
 /// the squared error with the mean log_weight of the channels over valid cells. The value is one for all of a box that
 /// is not halved any more: piecewise constant. Positions are stored as two bits a coefficient, whether either half is
-/// halved again, with a count every 64 bits; the numbers are halves. Truncation leaves means of boxes, which rounding
-/// can take below 0. Reciprocal, since coordinates are the same for (wo, wi) and (wi, wo).
+/// halved again, with a count every 64 bits; the numbers are half floats, and of the first sixteenth, whose rounding
+/// all that is below them shares, what rounding left as well. Truncation leaves means of boxes, which rounding can take
+/// below 0. Reciprocal, since coordinates are the same for (wo, wi) and (wi, wo).
 
 #include <cstdint>
 
@@ -26,6 +27,7 @@ class Wavelets final : public Brdf {
   struct Tree {
     Eigen::Array3f mean = Eigen::Array3f::Zero();  ///< of the whole table
     std::array<HalfArray, 3> difference;           ///< first half minus second
+    std::array<HalfArray, 3> rest;                 ///< what rounding left of the first of them, refined(count)
     std::vector<std::uint64_t> halved;             ///< bits 2 n, 2 n + 1: the first, second half of n has a coefficient
   };
 
@@ -39,6 +41,9 @@ class Wavelets final : public Brdf {
   /// Mean, coefficients, bits and counts.
   [[nodiscard]] std::size_t bytes() const override { return bytes(tree_.difference[0].size()); }
   [[nodiscard]] static std::size_t bytes(std::size_t coefficients);
+
+  /// How many of so many coefficients are stored as two numbers: one in sixteen.
+  [[nodiscard]] static constexpr std::size_t refined(std::size_t coefficients) { return (coefficients + 15) / 16; }
 
  private:
   Tree tree_;

@@ -206,7 +206,7 @@ TEST_P(BasisModel, TakesNoNoticeOfMaskedCells) {
   expect_sound(*model);
 }
 
-TEST_P(BasisModel, RefusesWhatItCannotFit) {
+TEST_P(BasisModel, FitsLittleAndRefusesLess) {
   const BasisInfo& info = *GetParam();
   const MeasuredTable table = builtin_material();
   EXPECT_THROW((void)fit(info, table, 0), std::invalid_argument);
@@ -215,6 +215,9 @@ TEST_P(BasisModel, RefusesWhatItCannotFit) {
     const std::string message = test::message_of<std::invalid_argument>([&] { (void)fit(info, table, 8); });
     EXPECT_NE(message.find(info.name), std::string::npos) << message;
     EXPECT_NE(message.find("budget is 8"), std::string::npos) << message;
+    const BrdfPtr least = fit(info, table, 150);
+    EXPECT_LE(least->bytes(), 150U);
+    expect_sound(*least);
   }
   MeasuredTable bad = table;
   std::fill(bad.valid.begin(), bad.valid.end(), std::uint8_t{0});

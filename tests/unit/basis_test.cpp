@@ -1,6 +1,7 @@
 /// What sets each basis model apart: published identities and figures, and tables that it holds exactly.
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <Eigen/SVD>
 #include <cmath>
@@ -136,6 +137,18 @@ TEST(SeparableSvd, HoldsASeparableTable) {
   });
   const BrdfPtr model = basis::find("separable_svd").fit({.table = table}, 10000);
   EXPECT_LT(relative_error(*model, table), 5e-3);  // interpolation between 45 nodes, and half precision
+}
+
+TEST(Basis, FitsDoNotDependOnThreads) {
+  const MeasuredTable table = builtin_material();
+  for (const char* name : {"separable_svd", "zernike"}) {
+    const BrdfPtr many = basis::find(name).fit({.table = table}, 500);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const BrdfPtr single = basis::find(name).fit({.table = table}, 500);
+    for_some_cells(table, [&](std::size_t, const DirectionPair& pair) {
+      ASSERT_TRUE((many->eval(pair.wo, pair.wi) == single->eval(pair.wo, pair.wi)).all()) << name;
+    });
+  }
 }
 
 TEST(Homomorphic, HoldsAProduct) {
@@ -300,7 +313,7 @@ TEST(Wavelets, HoldEveryCellWithoutALimit) {
 TEST(Wavelets, RefuseBitsThatAreNotATree) {
   Wavelets::Tree tree;
   const std::vector<double> one = {1};
-  tree.difference = {HalfArray(one), HalfArray(one), HalfArray(one)};
+  tree.difference = tree.rest = {HalfArray(one), HalfArray(one), HalfArray(one)};
   tree.halved = {0};
   EXPECT_NO_THROW((void)Wavelets(tree));
   tree.halved = {1};
