@@ -39,8 +39,8 @@ struct Sums {
       const double a = f[channel] * cos_i;
       const double b = g[channel] * cos_i;
       const double root = std::cbrt(a) - std::cbrt(b);
-      log1p[channel] += std::abs(std::log1p(a) - std::log1p(b));
-      logrel[channel] += std::abs(std::log((f[channel] * w + kFloor) / (g[channel] * w + kFloor)));
+      log1p[channel] += std::abs(std::log1p(a) - std::log1p(std::max(b, 0.0)));
+      logrel[channel] += std::abs(std::log((f[channel] * w + kFloor) / (std::max(g[channel], 0.0) * w + kFloor)));
       cuberoot[channel] += root * root;
       difference[channel] += (a - b) * (a - b);
       power[channel] += a * a;

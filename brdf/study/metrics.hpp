@@ -15,7 +15,8 @@ using CellValues = std::array<std::vector<double>, 3>;
 [[nodiscard]] CellValues predict(const Brdf& model, const MeasuredTable& reference);
 
 /// Errors per channel over the valid cells with both angles at most 80 degrees, each cell counting once; `.mean()` of
-/// each is the figure to report. f is measured, g the model, c = cos_i, w = max(cos_i cos_o, 1e-3).
+/// each is the figure to report. f is measured, g the model, c = cos_i, w = max(cos_i cos_o, 1e-3). In the logarithms a
+/// negative g (Traits::non_negative) counts as 0.
 struct CellErrors {
   Rgb log1p_mae;      ///< mean |ln(1 + f c) - ln(1 + g c)|
   Rgb logrel_mae;     ///< mean |ln((f w + 1e-3) / (g w + 1e-3))|

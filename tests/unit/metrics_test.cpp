@@ -87,6 +87,15 @@ TEST(CellErrors, CellsCountOnceAndPast80DegreesNot) {
   expect_near(errors.rel_l2, Rgb::Constant(2 * b / std::sqrt(a * a + b * b)), "rel_l2");
 }
 
+TEST(CellErrors, NegativeValuesAreZeroInLogarithmsOnly) {
+  MeasuredTable table = uniform_table(planes(2, 0.5, 30));
+  keep_only(table, {Grid::index(20, 30, 40)});
+  const CellErrors negative = cell_errors(table, planes(-5, -1e6, -1));
+  const CellErrors zero = cell_errors(table, planes(0, 0, 0));
+  EXPECT_TRUE((negative.log1p_mae == zero.log1p_mae).all() && (negative.logrel_mae == zero.logrel_mae).all());
+  EXPECT_TRUE((negative.cuberoot_rms > zero.cuberoot_rms).all() && (negative.rel_l2 > zero.rel_l2).all());
+}
+
 TEST(CellErrors, ZeroForTheTableItself) {
   const MeasuredTable table = uniform_table(planes(2, 0, 30));
   const CellErrors errors = cell_errors(table, table.values);
