@@ -123,6 +123,7 @@ BrdfPtr fit_structure(const std::vector<TableBrdf>& tables, const CellGrid& grid
   const Eigen::MatrixXd leading = components(learnt, count);
   HalfArray base = half_array(learnt.base);
   std::vector<HalfArray> stored;
+  stored.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) stored.push_back(half_array(leading.col(k)));
   const double ridge = kRidge * static_cast<double>(cells.size()) / Grid::cells;
   Eigen::MatrixXd normal = ridge * Eigen::MatrixXd::Identity(count, count);
@@ -175,14 +176,16 @@ std::vector<Structure> structures(double max_bytes, int observations) {
 }
 
 BrdfPtr fit(const BasisData& data, double max_bytes) {
-  require_budget("pca", static_cast<double>(PcaBrdf::bytes(8 * kLeastElongation, 1)), max_bytes);
+  require_budget("pca", static_cast<double>(PcaBrdf::bytes(std::size_t{8} * kLeastElongation, 1)), max_bytes);
   std::vector<TableBrdf> tables;
+  tables.reserve(data.others.size());
   for (const auto& other : data.others) tables.emplace_back(std::make_shared<const MeasuredTable>(filled(*other)));
   const std::vector<FitCell> cells = spread_cells(data.table, kCells);
   const std::vector<FitCell> choosing = spread_cells(data.table, kChoosingCells);
+  const int observations = 3 * static_cast<int>(tables.size());
   BrdfPtr best;
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [grid, count] : structures(max_bytes, static_cast<int>(3 * tables.size()))) {
+  for (const auto& [grid, count] : structures(max_bytes, observations)) {
     const BrdfPtr model = fit_structure(tables, grid, count, cells);
     const double error = log_error(*model, choosing);
     if (best && !(error < least)) continue;

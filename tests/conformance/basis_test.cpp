@@ -22,8 +22,8 @@ namespace sklar::brdf {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSmall = 1500, kLarge = 12000;  // bytes
-constexpr double kWorst = 0.45;                  // error of any model, of that of a black one
+constexpr double kSmall = 1500, kLarge = 4500;  // bytes
+constexpr double kWorst = 0.45;                 // error of any model, of that of a black one
 
 using TablePtr = std::shared_ptr<const MeasuredTable>;
 
