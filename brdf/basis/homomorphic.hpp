@@ -3,7 +3,7 @@
 ///
 ///     f_r(wi, wo) = p(wo) q(h) p(wi),   per channel
 ///
-/// McCool, Ang and Ahmad 2001, "Homomorphic Factorization of BRDFs for High-Performance Rendering", Eq. 2: the
+/// McCool, Ang and Ahmad 2001, "Homomorphic Factorization of BRDFs for High-Performance Rendering": the
 /// logarithm of the product is a sum, which linear least squares fits. For isotropic data p is a function of theta and
 /// q one of theta_h. Reciprocal, since p is the same for both directions.
 ///

@@ -3,8 +3,8 @@
 ///
 ///     f_r(wi, wo) cos_i = sum_j F_j(wo) sum_k u_jk(theta_h) v_jk(phi_h)
 ///
-/// Lawrence, Rusinkiewicz and Ramamoorthi 2004, "Efficient BRDF Importance Sampling Using a Factored Representation",
-/// Eq. 4: f_r cos_i as a matrix over wo and h, factored twice (section 4). For isotropic data F is a function of
+/// Lawrence, Rusinkiewicz and Ramamoorthi 2004, "Efficient BRDF Importance Sampling Using a Factored Representation":
+/// f_r cos_i as a matrix over wo and h, factored twice (section 4). For isotropic data F is a function of
 /// theta_o and phi_h counts from the azimuth of wo; here it is folded to [0, pi], the mean of both sides. F has three
 /// channels, u and v are shared. Not reciprocal. f_r divides by max(cos_i, cos 89 deg).
 ///
@@ -12,7 +12,7 @@
 /// Kullback-Leibler divergence, each node above the horizon counting once: F against functions of h, these against
 /// u v, then all factors together, which the paper does not do.
 ///
-/// Draws (section 5): a term in proportion to the luminance of F(wo) times the integral of u v over h; theta_h from u,
+/// Draws: a term in proportion to the luminance of F(wo) times the integral of u v over h; theta_h from u,
 /// phi_h from v; wi mirrors wo at h, with density p(h) / (4 wo.h). Between nodes p takes the mean of both for u and for
 /// v, so that it is what is drawn to rounding. Draws below the horizon are lost; a black F draws the cosine hemisphere.
 

@@ -70,7 +70,7 @@ namespace {
 
 constexpr std::size_t kCells = 30000, kChoosingCells = 10000;
 constexpr int kLeastElongation = 2;
-constexpr double kRidge = 40;  ///< Nielsen et al. 2015, section 4.2; for as many cells as a table has
+constexpr double kRidge = 40;  ///< of Nielsen et al. 2015; for as many cells as a table has
 
 /// The observations on a grid: a column a channel of each material, and the base.
 struct Learnt {

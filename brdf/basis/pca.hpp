@@ -3,7 +3,7 @@
 ///
 ///     ln((f_r w + e) / (f_ref w + e)) = mu + sum_k c_k q_k,   w = max(cos_i cos_o, 1e-3), e = 1e-3
 ///
-/// Nielsen, Jensen and Ramamoorthi 2015, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", Eqs. 1 to 4:
+/// Nielsen, Jensen and Ramamoorthi 2015, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition":
 /// f_ref is the median over the materials, mu the mean and q_k the principal components of their channels, each channel
 /// an observation; c by ridge regression with weight 40 on components scaled to unit variance of their coefficients,
 /// over 3e4 cells that stand for all, each counting once.

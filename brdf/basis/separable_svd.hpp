@@ -4,8 +4,8 @@
 ///     f_r(wi, wo) = sum_k u_k(theta_h) v_k(theta_d, phi_d),   u per channel
 ///
 /// Fournier 1995, "Separating Reflection Functions for Linear Radiosity": singular value decomposition of a tabulated
-/// reflectance. Kautz and McCool 1999, "Interactive Rendering with Arbitrary BRDFs using Separable Approximations",
-/// section 4: over half and difference vectors instead of wi and wo. For isotropic data a function of the half vector
+/// reflectance. Kautz and McCool 1999, "Interactive Rendering with Arbitrary BRDFs using Separable Approximations":
+/// over half and difference vectors instead of wi and wo. For isotropic data a function of the half vector
 /// is one of theta_h alone when the difference vector is taken in the frame of h (Rusinkiewicz 1998).
 ///
 /// Fitted to f_r in linear space, by least squares over the nodes with log_weight; the three channels are rows of one

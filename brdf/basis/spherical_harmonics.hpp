@@ -3,7 +3,7 @@
 ///
 ///     f_r(wi, wo) cos_i = sum_m cos(m dphi) sum_jk C_mjk P_j^m(cos_i) P_k^m(cos_o),   j, k >= m
 ///
-/// Westin, Arvo and Torrance 1992, "Predicting Reflectance Functions from Complex Surfaces", section 5: the matrix of
+/// Westin, Arvo and Torrance 1992, "Predicting Reflectance Functions from Complex Surfaces": the matrix of
 /// f_r cos_i over real spherical harmonics of wi and wo, of which isotropy leaves pairs of one m; also Sillion, Arvo,
 /// Westin and Greenberg 1991, "A Global Illumination Solution for General Reflectance Distributions". P are the
 /// associated Legendre functions with the norm of the harmonics on the whole sphere; up to order L there are

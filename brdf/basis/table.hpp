@@ -2,7 +2,7 @@
 /// The measured table itself, read by trilinear interpolation (TableBrdf): 90 x 90 x 180 cells of three doubles. It has
 /// one size, 35 MB, and takes no notice of the budget.
 ///
-/// Matusik, Pfister, Brand and McMillan 2003, "A Data-Driven Reflectance Model", section 3: the grid.
+/// Matusik, Pfister, Brand and McMillan 2003, "A Data-Driven Reflectance Model": the grid.
 
 #include "brdf/basis/info.hpp"
 #include "brdf/data/table_brdf.hpp"
