@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "brdf/render/hemisphere.hpp"
 #include "brdf/sampling/paper_sampler.hpp"
 #include "brdf/sampling/sampled_brdf.hpp"
+#include "brdf/study/table_text.hpp"
 #include "families/registry.hpp"
 
 namespace sklar::brdf {
@@ -118,12 +118,6 @@ Furnaces furnaces_of(const char* function, const Brdf& brdf) {
   Furnaces furnaces;
   for (const double theta : kEfficiencyAngles) furnaces.emplace_back(brdf, theta * std::numbers::pi / 180);
   return furnaces;
-}
-
-std::string printed(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 }  // namespace

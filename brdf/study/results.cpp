@@ -1,10 +1,10 @@
 #include "brdf/study/results.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <thread>
 
+#include "brdf/study/table_text.hpp"
 #include "copula/json_fields.hpp"
 
 namespace sklar::brdf {
@@ -31,12 +31,6 @@ constexpr std::array<Figure, 8> kFigures = {{
     {"albedo_max", "albedo max", "%.3f", &CompareRow::albedo_max},
 }};
 
-std::string printed(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return std::isfinite(value) ? buffer : sklar::to_text(value);
-}
-
 Json row_to_json(const CompareRow& row) {
   Json json = {{"material", row.material}, {"provenance", to_text(row.provenance)},
                {"model", row.model},       {"family", row.family},
@@ -58,13 +52,6 @@ std::string theta_to_csv(const CompareRow& row) {
     }
   }
   return text;
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
-  return result + "\"";
 }
 
 }  // namespace
@@ -92,10 +79,10 @@ std::string to_csv(std::span<const CompareRow> rows) {
   for (const Figure& figure : kFigures) text += std::string(",") + figure.name;
   text += ",theta,error\n";
   for (const CompareRow& row : rows) {
-    text += quoted(row.material) + "," + to_text(row.provenance) + "," + row.model + "," + quoted(row.family) + "," +
-            row.mode + "," + std::to_string(row.bytes);
+    text += csv_field(row.material) + "," + to_text(row.provenance) + "," + row.model + "," + csv_field(row.family) +
+            "," + row.mode + "," + std::to_string(row.bytes);
     for (const Figure& figure : kFigures) text += "," + printed("%.17g", row.*figure.value);
-    text += "," + theta_to_csv(row) + "," + quoted(row.error) + "\n";
+    text += "," + theta_to_csv(row) + "," + csv_field(row.error) + "\n";
   }
   return text;
 }

@@ -8,6 +8,7 @@
 #include "brdf/study/results.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "examples/cli/brdf_compare_models.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/fit_options.hpp"
 #include "examples/cli/material.hpp"
@@ -23,6 +24,8 @@ struct Options {
   std::string families = "all";
   FitOptions fit;
   std::string folder = "out";
+  std::string models;  // empty: families
+  std::vector<double> budgets = {1024, 4096, 16384};
 };
 
 void make_folder(const std::filesystem::path& folder) {
@@ -105,10 +108,21 @@ void add_brdf_compare(CLI::App& parent, Common& common) {
                       "isotropic material files (.binary, .bsdf); omitted: the built-in material");
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--out", options->folder, "folder for tables and pictures")->capture_default_str();
+  command->add_option("--models", options->models,
+                      "compare models of every kind instead of families: all, or names with commas");
+  command->add_option("--budgets", options->budgets, "with --models: sizes in bytes of those that come in any size")
+      ->delimiter(',')
+      ->capture_default_str();
   add_fit_options(*command, options->fit, {"paper", "refined", "both"});
   finish_command(*command, common, [command, options, &common] {
     settle_fit_options(*command, options->fit);
-    run(*options, common.json);
+    if (options->models.empty()) return run(*options, common.json);
+    compare_models({.materials = options->materials,
+                    .models = options->models,
+                    .budgets = options->budgets,
+                    .folder = options->folder,
+                    .provenance = options->fit.provenance},
+                   common.json);
   });
 }
 

@@ -242,6 +242,20 @@ TEST_F(BrdfCommand, CompareTakesTheRefinedMode) {
   EXPECT_LT(document["rows"][1]["log1p_mae"].get<double>(), 0.02);
 }
 
+TEST_F(BrdfCommand, CompareTakesModelsOfEveryKind) {
+  const std::string command = "brdf compare --models lambert --budgets 1024 --out out";
+  const Result result = run(command);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("| analytic | lambert |"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("out/models_synthetic.png"), std::string::npos) << result.out;
+  const auto document = nlohmann::json::parse(read("out/models.json"));
+  ASSERT_EQ(document["rows"].size(), 1U);
+  EXPECT_GT(document["rows"][0]["log1p_mae"], 0);
+  EXPECT_EQ(run(command + " --json").out, read("out/models.json"));  // from the rows that are kept
+  expect_refused("brdf compare --models shiny --out out", "unknown model 'shiny'; known models: all, refined");
+  expect_refused("brdf compare --models lambert --budgets 0 --out out", "a budget is 0 bytes; allowed are");
+}
+
 TEST_F(BrdfCommand, FitRefusesWhatItCannotDo) {
   expect_refused("brdf fit --family gaussian -o model.json", "unknown family 'gaussian'; known families: ");
   expect_refused("brdf fit --mode paper --family independence --slices 7 -o model.json", "slices");
