@@ -52,7 +52,7 @@ kept=$(sed -n '/^## How fast pictures converge$/,$p' docs/sampling.md)
 `SampledBrdf` (`brdf/sampling/sampled_brdf.hpp`) gives any reflectance, a model, a measured table or a formula, a sampler
 made for it: given theta_o a mixture of six densities, each the product of two margins, so that the mixture is what couples
 them (`brdf/sampling/conditional_sampler.hpp`). Two are of wi, four of the half vector, in a disk whose rim is the horizon
-whatever theta_o (`brdf/sampling/half_disk.hpp`): no draw is lost below it, and the density integrates to 1. The sampler
+whatever theta_o (`brdf/geometry/half_disk.hpp`): no draw is lost below it, and the density integrates to 1. The sampler
 needs 16 KB and, on two cores, 0.2 seconds to make. Its density is continuous, and nowhere below 0.002 cos(theta_i) / pi.
 Two uniforms make a draw; a lattice or a low-discrepancy sequence serves as well as random ones. Luminance is followed:
 where the channels differ in shape, so do their weights. An anisotropic reflectance is followed as far as its mean over

@@ -31,12 +31,6 @@ inline constexpr std::array kNotComputable = {
                   "Westlund and Meyer 2001, Applying Appearance Standards to Light Reflection Models",
                   "It has no reflectance of its own: it gives parameters of the Phong, Ward and Cook-Torrance models, "
                   "which are in the list, from readings of gloss and haze meters."},
-    NotComputable{
-        "Edwards and others",
-        "Edwards, Boulos, Johnson, Shirley, Ashikhmin, Stark and Wyman 2006, The Halfway Vector Disk for BRDF "
-        "Modeling",
-        "Its equations could not be checked against a copy of the source, and a formula from memory would be "
-        "another model under its name."},
 };
 
 }  // namespace sklar::brdf::analytic

@@ -13,7 +13,8 @@
 #include <cstring>
 #include <numbers>
 
-#include "brdf/sampling/half_disk.hpp"
+#include "brdf/geometry/half_disk.hpp"
+#include "brdf/sampling/disk_warp.hpp"
 #include "brdf/sampling/sampler_kernel.hpp"
 
 // All that takes or returns vectors here is inlined: no call depends on how they are passed.
@@ -201,19 +202,6 @@ HWY_INLINE Quotient inverse(const Nodes& nodes, const MarginLayout& margin, doub
   return {cell * root + std::min(2 * mass, root), margin.cells * root};
 }
 
-/// wi relative to the plane of incidence: along it towards wo, across it, up.
-struct Local {
-  double along, across, up;
-};
-
-/// wi of a point of the disk; see half_disk.hpp. @param x, y of m. @param square |m|^2.
-HWY_INLINE Local from_disk(const Outgoing& given, double x, double y, double square) {
-  const double c = given.cosine, q = given.sine;
-  const double rest = 1 - q * x, d = rest * rest + (q * y) * (q * y), d_up = d + c * c * square;
-  const double inverse = 1 / (d * d_up), factor = 2 * c * c * rest * inverse;
-  return {factor * (x - q * square) - q, factor * y, c * (1 - square) * d * inverse};
-}
-
 /// wo above the horizon.
 HWY_INLINE Vec3 drawn(const Outgoing& given, const Nodes& nodes, const Vec2& uniforms) {
   const float *low = nodes.low.shares.data(), *high = nodes.high.shares.data();
@@ -233,7 +221,7 @@ HWY_INLINE Vec3 drawn(const Outgoing& given, const Nodes& nodes, const Vec2& uni
   const double radius2 = polar.part / polar.whole, is_wi = static_cast<double>(k) - (kOfHalf.components - 0.5);
   const double square = choose(is_wi, radius2, DiskWarp(nodes.spread()).disk2(polar.part, polar.whole));
   const double radius = std::sqrt(square), x = radius * cosine, y = radius * sine;
-  const Local half = from_disk(given, x, y, square);
+  const LocalDirection half = from_disk(given, x, y, square, 1 - square);
   const double along = choose(is_wi, x, half.along), across = choose(is_wi, y, half.across);
   const double up = choose(is_wi, std::sqrt(1 - radius2), half.up);
   // x and y in one store: a copy of the vector loads both at once, and waits until two stores have left the pipeline.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "brdf/sampling/disk_warp.hpp"
+
 namespace sklar::brdf {
 namespace {
 

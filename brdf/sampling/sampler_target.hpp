@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "brdf/sampling/half_disk.hpp"
+#include "brdf/geometry/half_disk.hpp"
 
 namespace sklar::brdf {
 

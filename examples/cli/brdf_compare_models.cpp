@@ -39,7 +39,12 @@ std::string not_compared() {
   for (const auto& model : brdf::analytic::kNotComputable) {
     text += "| " + std::string(model.name) + " | " + std::string(model.why) + " |\n";
   }
-  return text;
+  return text +
+         "| Wang, Tran and Luebke 2004; Sun and others 2007 | As reflectance they are separable forms by singular "
+         "values, "
+         "separable_svd above, and its tensor form over a set of materials; what they add is the relighting of a scene "
+         "by "
+         "the factors and the editing of materials within the set. |\n";
 }
 
 }  // namespace

@@ -5,8 +5,11 @@
 #include <numbers>
 
 #include "brdf/analytic/ggx.hpp"
+#include "brdf/analytic/halfway_disk.hpp"
 #include "brdf/analytic/neumann.hpp"
 #include "brdf/analytic/registry.hpp"
+#include "brdf/geometry/frame.hpp"
+#include "brdf/render/hemisphere.hpp"
 #include "tests/support/textbook.hpp"
 
 namespace sklar::brdf {
@@ -48,6 +51,36 @@ TEST(DiffuseModels, StrengthOfGgxIsTheMeanOfItsFresnelTerm) {
   EXPECT_NEAR(lobe.strength()[0], schlick, kQuadrature);
   EXPECT_NEAR(lobe.strength()[1], 0.3 + 0.7 * schlick, kQuadrature);
   EXPECT_EQ(lobe.strength()[2], 1);
+}
+
+// What Edwards et al. build it for: the albedo is that asked for, grazing included.
+TEST(HalfwayDisk, SendsBackItsAlbedoAtEveryAngle) {
+  for (const double exponent : {1.0, 8.0, 200.0}) {
+    const HalfwayDiskLobe lobe({0.2, 0.5, 1}, exponent);
+    for (const double theta_o : {0.0, 30.0, 60.0, 80.0, 88.0}) {
+      const HemisphereNodes nodes = hemisphere_nodes(theta_o * kPi / 180, {.polar = 400, .azimuth = 400});
+      const Vec3 wo = spherical_direction(theta_o * kPi / 180, 0);
+      Rgb albedo = Rgb::Zero();
+      for (Eigen::Index i = 0; i < nodes.wi.rows(); ++i) {
+        albedo += lobe.eval(wo, Vec3(nodes.wi.row(i).transpose())) * nodes.weight(i);
+      }
+      EXPECT_LT((albedo / Rgb(0.2, 0.5, 1) - 1).abs().maxCoeff(), 1e-3) << exponent << " " << theta_o;
+    }
+  }
+}
+
+// At normal incidence m is tan(theta_h) exp(i phi_h): in the mirror direction f_r is specular (n + 1) / (4 pi).
+TEST(HalfwayDisk, PeaksInTheMirrorDirection) {
+  const HalfwayDiskLobe lobe(Rgb::Ones(), 50);
+  EXPECT_NEAR(lobe.eval(Vec3::UnitZ(), Vec3::UnitZ())[0], 51 / (4 * kPi), 1e-12);
+}
+
+// It is not reciprocal, as published, and says so.
+TEST(HalfwayDisk, ClaimsNoReciprocity) {
+  const HalfwayDiskLobe lobe(Rgb::Ones(), 8);
+  EXPECT_FALSE(lobe.traits().reciprocal);
+  const Vec3 wo = spherical_direction(1.2, 0), wi = spherical_direction(0.4, 2.5);
+  EXPECT_GT(std::abs(lobe.eval(wo, wi)[0] / lobe.eval(wi, wo)[0] - 1), 0.1);
 }
 
 }  // namespace

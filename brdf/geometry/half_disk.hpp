@@ -4,8 +4,10 @@
 /// Of the half vector, with z = tan(theta_h) exp(i (phi_h - phi_o)), a complex number:
 ///     m = z / (cos(theta_o) + sin(theta_o) z).
 /// wi is above the horizon exactly where |m| < 1, whatever theta_o: in the plane of z the horizon is the circle
-/// |z - tan(theta_o)| = 1 / cos(theta_o), and m is the Moebius map of its inside to the unit disk that keeps 0, the
-/// mirror direction, in place and lobes around it round. Back, with D = |1 - sin(theta_o) m|^2:
+/// |z - tan(theta_o)| = 1 / cos(theta_o), whose inside the scaling projection of Edwards et al. 2006, "The Halfway
+/// Vector Disk for BRDF Modeling", takes to a unit disk with backscattering in its middle. m is the Moebius map of it
+/// to the unit disk with the mirror direction in its middle, which keeps lobes around it round. Back, with D = |1 -
+/// sin(theta_o) m|^2:
 ///     tan(theta_h) exp(i (phi_h - phi_o)) = cos(theta_o) m / (1 - sin(theta_o) m),
 ///     cos(theta_i) = cos(theta_o) (1 - |m|^2) / (D + cos^2(theta_o) |m|^2).
 /// The solid angle is dwi = 4 (wo.h) dwh and dwh = |dz|^2 / (1 + |z|^2)^(3/2).
@@ -45,6 +47,45 @@ struct Outgoing {
   Vec2 along = Vec2(1, 0);  ///< unit, wo's direction in the plane of the surface
 };
 
+/// Of the half vector of two directions above the horizon.
+struct HalfDisk {
+  double x, y;  ///< along m, of length `length`
+  double length;
+  double square;  ///< |m|^2, in [0,1]
+  double rest;    ///< 1 - |m|^2 to its own digits: cos(theta_o) cos(theta_i) |wo + wi|^2 / |below|^2
+  double area;    ///< d^2 m / dwi
+
+  /// @param wo, wi unit. @param given of wo.
+  HalfDisk(const Outgoing& given, const Vec3& wo, const Vec3& wi) {
+    const double sum_x = wi.x() + wo.x(), sum_y = wi.y() + wo.y(), sum_z = wi.z() + wo.z();
+    const double along = sum_x * given.along.x() + sum_y * given.along.y();
+    const double across = sum_y * given.along.x() - sum_x * given.along.y();
+    const double level2 = along * along + across * across, sum2 = level2 + sum_z * sum_z;
+    // m = (along + i across) / (a + i b)
+    const double up = given.cosine * sum_z, a = up + given.sine * along, b = given.sine * across;
+    const double below2 = a * a + b * b;
+    x = up * along + given.sine * level2;
+    y = up * across;
+    length = std::sqrt(level2 * below2);
+    square = std::min(level2 / below2, 1.0);
+    rest = given.cosine * wi.z() * sum2 / below2;
+    area = given.cosine * up * sum2 / (2 * below2 * below2);
+  }
+};
+
+/// wi relative to the plane of incidence: along it towards wo, across it, up.
+struct LocalDirection {
+  double along, across, up;
+};
+
+/// wi of a point of the disk. @param x, y of m. @param square |m|^2. @param rest 1 - |m|^2.
+[[nodiscard]] inline LocalDirection from_disk(const Outgoing& given, double x, double y, double square, double rest) {
+  const double c = given.cosine, q = given.sine;
+  const double away = 1 - q * x, d = away * away + (q * y) * (q * y), d_up = d + c * c * square;
+  const double inverse = 1 / (d * d_up), factor = 2 * c * c * away * inverse;
+  return {factor * (x - q * square) - q, factor * y, c * rest * d * inverse};
+}
+
 struct WiCoordinates {
   double disk2;         ///< |m|^2, in [0,1]
   double disk_azimuth;  ///< FoldedAzimuth of the argument of m
@@ -55,17 +96,11 @@ struct WiCoordinates {
 
   /// @param wo, wi unit, above the horizon. @param given of wo.
   WiCoordinates(const Outgoing& given, const Vec3& wo, const Vec3& wi) {
-    const double sum_x = wi.x() + wo.x(), sum_y = wi.y() + wo.y(), sum_z = wi.z() + wo.z();
-    const double x = sum_x * given.along.x() + sum_y * given.along.y();
-    const double y = sum_y * given.along.x() - sum_x * given.along.y();
-    const double across2 = x * x + y * y;
-    // m = (x + i y) / (a + i b)
-    const double a = given.cosine * sum_z + given.sine * x, b = given.sine * y;
-    const double below2 = a * a + b * b, up = given.cosine * sum_z;
-    const FoldedAzimuth of_m = FoldedAzimuth::of(up * x + given.sine * across2, up * y, std::sqrt(across2 * below2));
-    disk2 = std::min(across2 / below2, 1.0);
+    const HalfDisk half(given, wo, wi);
+    const FoldedAzimuth of_m = FoldedAzimuth::of(half.x, half.y, half.length);
+    disk2 = half.square;
     disk_azimuth = of_m.s;
-    disk_measure = of_m.slope * (given.cosine * up) * (across2 + sum_z * sum_z) / (2 * below2 * below2);
+    disk_measure = of_m.slope * half.area;
 
     radius2 = wi.x() * wi.x() + wi.y() * wi.y();
     const double wi_x = wi.x() * given.along.x() + wi.y() * given.along.y();
@@ -74,43 +109,6 @@ struct WiCoordinates {
     azimuth = of_wi.s;
     measure = of_wi.slope * wi.z();
   }
-};
-
-/// |m|^2 as the coordinate in [0,1] in which margins are tabulated: about |m|^2 up to core^2, about log |m| from there,
-/// so that lobes of any width above core^2 have knots. With core a, spread v, g^4 = a^4 + (1 - a^4) |m|^2, y = g - a:
-///     coordinate = (1 + v / (1 - a)) y / (v + y).
-struct DiskWarp {
-  double spread, core, core4, scale;
-  double above_core;  ///< 1 / (1 - core4)
-
-  /// @param spread in (0,1].
-  explicit DiskWarp(double spread_)
-      : spread(spread_),
-        core(kCore * spread),
-        core4((core * core) * (core * core)),
-        scale(1 + spread / (1 - core)),
-        above_core(1 / (1 - core4)) {}
-
-  struct Place {
-    double coordinate;
-    double slope;  ///< dcoordinate / d|m|^2
-  };
-  [[nodiscard]] Place of(double disk2) const {
-    const double g2 = std::sqrt(core4 + (1 - core4) * disk2), g = std::sqrt(g2), y = g - core;
-    const double inverse = 1 / (spread + y);
-    return {std::clamp(scale * y * inverse, 0.0, 1.0),
-            scale * spread * (0.25 * (1 - core4)) * (inverse * inverse) / (g2 * g)};
-  }
-
-  /// |m|^2 at the coordinate part / whole.
-  [[nodiscard]] double disk2(double part, double whole) const {
-    const double y = part * spread / (scale * whole - part);
-    const double g = core + y;  // g^4 - core^4 without cancellation
-    return y * (core + g) * (core * core + g * g) * above_core;
-  }
-
- private:
-  static constexpr double kCore = 0.2;
 };
 
 }  // namespace sklar::brdf
