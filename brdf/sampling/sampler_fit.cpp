@@ -32,6 +32,7 @@ bool has_light(const std::vector<TargetPoint>& target) {
 /// |m| below which a share of the light is; 1 where there is no light.
 double radius_quantile(const std::vector<TargetPoint>& target, double share) {
   std::vector<std::pair<double, double>> points;
+  points.reserve(target.size());
   for (const TargetPoint& point : target) points.emplace_back(point.at.disk2, point.mass);
   std::sort(points.begin(), points.end());
   double sum = 0;

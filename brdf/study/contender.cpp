@@ -114,12 +114,12 @@ std::vector<Contender> find_contenders(std::span<const std::string> models, std:
     std::copy_if(all.begin(), all.end(), std::back_inserter(result),
                  [&](const Contender& contender) { return contender.model == model; });
     if (result.size() > before) continue;
-    std::string known;
+    std::string known, last;
     for (const Contender& contender : all) {
-      if (known.ends_with(contender.model)) continue;
-      known += (known.empty() ? "" : ", ") + contender.model;
+      if (contender.model != last) known.append(", ").append(contender.model);
+      last = contender.model;
     }
-    throw std::invalid_argument("unknown model '" + model + "'; known models: all, " + known);
+    throw std::invalid_argument("unknown model '" + model + "'; known models: all" + known);
   }
   return result;
 }

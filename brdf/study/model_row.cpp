@@ -195,6 +195,7 @@ std::string summary_markdown(std::span<const ModelRow> rows) {
     }
   }
   std::vector<Summary> all;
+  all.reserve(by_label.size());
   for (const auto& [name, summary] : by_label) all.push_back(summary);
   std::stable_sort(all.begin(), all.end(),
                    [](const Summary& a, const Summary& b) { return a.mean_rank() < b.mean_rank(); });
