@@ -11,8 +11,12 @@ if [ -z "$out" ]; then
 fi
 cd "$(dirname "$0")/.."
 cmake --build build --target sklar_command
+set --
+for file in "$folder"/*.bsdf "$folder"/*.binary; do
+  if [ -e "$file" ]; then set -- "$@" "$file"; fi
+done
 begin=$(date +%s)
-build/sklar brdf compare "$folder"/*.bsdf "$folder"/*.binary --provenance reconstruction --models all --out "$out" >/dev/null
+build/sklar brdf compare "$@" --provenance reconstruction --models all --out "$out" >/dev/null
 seconds=$(($(date +%s) - begin))
 
 # What stands behind this line is written by hand.
@@ -46,9 +50,8 @@ best() {
     }' "$out/models.csv"
 }
 
-for picture in "$out"/models_*.png; do
-  case $picture in *vch_silk_blue* | *satin_rosaline* | *green-metallic-paint*) cp "$picture" docs/images/ ;; esac
-done
+shown="acrylic_felt_green cc_ibiza_sunset aurora_white"
+for name in $shown; do cp "$out/models_$name.png" docs/images/; done
 {
   cat <<'HEAD'
 # Models of every kind
@@ -81,12 +84,9 @@ HEAD
 Columns: the refined model at 1, 4 and 16 KB, the best analytic model, the best basis model by log1p_mae. Rows: the
 reference, the model, the difference times five.
 
-![vch_silk_blue](images/models_vch_silk_blue.png)
-
-![satin_rosaline](images/models_satin_rosaline.png)
-
-![green-metallic-paint](images/models_green-metallic-paint.png)
-
+PICTURES
+  for name in $shown; do printf '![%s](images/models_%s.png)\n\n' "$name" "$name"; done
+  cat <<'MEANS'
 ## Every model
 
 Means over the materials; `rank` is the mean rank among all models over the eight measures of error, 1 is best. `ns` is an
@@ -95,7 +95,7 @@ furnace, by the model's own sampler or, where its source has none, the cosine; `
 directions change places over the mean value; `albedo` the largest. Of models that can be negative (`Traits::non_negative`)
 a value below 0 counts as 0 in the logarithmic errors.
 
-PICTURES
+MEANS
   part 2
   printf '\n'
   part 3
