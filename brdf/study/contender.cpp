@@ -119,7 +119,7 @@ std::vector<Contender> find_contenders(std::span<const std::string> models, std:
       if (contender.model != last) known.append(", ").append(contender.model);
       last = contender.model;
     }
-    throw std::invalid_argument("unknown model '" + model + "'; known models: all" + known);
+    throw std::invalid_argument(std::string("unknown model '").append(model).append("'; known models: all") + known);
   }
   return result;
 }
