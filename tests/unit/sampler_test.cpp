@@ -107,7 +107,7 @@ TEST_P(SampledKind, DrawsFollowTheDensity) {
                          .theta_cells = 16,
                          .phi_cells = 32,
                          .tests = tests,
-                         .mass_tolerance = 3e-5});
+                         .mass_tolerance = 5e-6});
   }
 }
 
