@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "copula/find_named.hpp"
 #include "copula/json_fields.hpp"
 #include "copula/rotated.hpp"
 
@@ -72,12 +73,7 @@ FamilyInfo rotated_family(const FamilyInfo& base, const Rotation& rotation) {
 }
 
 const FamilyInfo& find_family(std::string_view name, std::span<const FamilyInfo> families) {
-  std::string known;
-  for (const FamilyInfo& family : families) {
-    if (family.name == name) return family;
-    known += (known.empty() ? "" : ", ") + family.name;
-  }
-  throw std::invalid_argument("unknown family '" + std::string(name) + "'; known families: " + known);
+  return find_named(name, families, "family", "families");
 }
 
 RotatedName split_rotation(std::string_view name) {

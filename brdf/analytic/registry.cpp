@@ -1,7 +1,8 @@
 #include "brdf/analytic/registry.hpp"
 
 #include <array>
-#include <stdexcept>
+
+#include "copula/find_named.hpp"
 
 namespace sklar::brdf::analytic {
 
@@ -15,12 +16,7 @@ std::span<const AnalyticInfo> all() {
 }
 
 const AnalyticInfo& find(std::string_view name) {
-  std::string known;
-  for (const AnalyticInfo& model : all()) {
-    if (model.name == name) return model;
-    known += (known.empty() ? "" : ", ") + model.name;
-  }
-  throw std::invalid_argument("unknown reflectance model '" + std::string(name) + "'; known models: " + known);
+  return find_named(name, all(), "reflectance model", "models");
 }
 
 }  // namespace sklar::brdf::analytic

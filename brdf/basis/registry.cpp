@@ -1,7 +1,8 @@
 #include "brdf/basis/registry.hpp"
 
 #include <array>
-#include <stdexcept>
+
+#include "copula/find_named.hpp"
 
 namespace sklar::brdf::basis {
 
@@ -15,12 +16,7 @@ std::span<const BasisInfo> all() {
 }
 
 const BasisInfo& find(std::string_view name) {
-  std::string known;
-  for (const BasisInfo& model : all()) {
-    if (model.name == name) return model;
-    known += (known.empty() ? "" : ", ") + model.name;
-  }
-  throw std::invalid_argument("unknown basis model '" + std::string(name) + "'; known models: " + known);
+  return find_named(name, all(), "basis model", "models");
 }
 
 }  // namespace sklar::brdf::basis
