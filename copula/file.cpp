@@ -52,6 +52,12 @@ std::string read_file(const fs::path& path) {
   return std::move(bytes).str();
 }
 
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw FileError(path.string(), error.message());
+}
+
 void require_writable(const fs::path& path) {
   if (fs::is_directory(path)) fail(path, std::make_error_code(std::errc::is_a_directory));
   if (fs::exists(path) && !fs::is_regular_file(path)) return;

@@ -15,6 +15,10 @@ namespace sklar {
 /// @throws FileError naming the path and the system's reason.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Makes a folder and those above it, where they are missing. @throws FileError naming the path and the system's
+/// reason.
+void make_folder(const std::filesystem::path& path);
+
 /// For before long work: throws what write_file would for a directory, or for a folder that is missing or read-only.
 void require_writable(const std::filesystem::path& path);
 

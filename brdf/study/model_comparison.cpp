@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <system_error>
 
 #include "brdf/geometry/frame.hpp"
 #include "brdf/study/efficiency.hpp"
@@ -97,12 +96,6 @@ ModelRow fit_and_judge(const ContenderData& data, const Contender& contender, Re
     fail(error);
   }
   return row;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), error.message());
 }
 
 }  // namespace

@@ -2,11 +2,9 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <system_error>
 
 #include "brdf/study/efficiency.hpp"
 #include "brdf/study/results.hpp"
-#include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/brdf_compare_models.hpp"
 #include "examples/cli/command.hpp"
@@ -27,12 +25,6 @@ struct Options {
   std::string models;  // empty: families
   std::vector<double> budgets = {1024, 4096, 16384};
 };
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), error.message());
-}
 
 // The results so far, so that an interrupted run keeps what is finished.
 void write_results(const std::filesystem::path& folder, const std::vector<brdf::CompareRow>& rows) {

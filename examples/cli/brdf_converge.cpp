@@ -5,10 +5,8 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "brdf/study/convergence.hpp"
-#include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
@@ -158,9 +156,7 @@ void run(Options options, bool json) {
   brdf::Scene scene = load_scene(options.scene, materials);
   set_size(options.size, scene.width, scene.height);
   brdf::require_scene(scene);
-  std::error_code error;
-  std::filesystem::create_directories(options.folder, error);
-  if (error) throw FileError(options.folder.string(), error.message());
+  make_folder(options.folder);
   const auto drawings = brdf::drawings(scene, materials);
   if (options.reference == 0) options.reference = 4 * options.samples;
   int each = 0;
