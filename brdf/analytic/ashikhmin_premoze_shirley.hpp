@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "brdf/analytic/check.hpp"
+#include "brdf/analytic/fresnel.hpp"
 #include "brdf/analytic/half_vector_density.hpp"
 #include "brdf/analytic/info.hpp"
 #include "brdf/analytic/lambert.hpp"
@@ -52,9 +53,7 @@ class AshikhminPremozeShirleyLobe final : public Brdf {
     if (!(wo.z() > 0 && wi.z() > 0)) return Rgb::Zero();
     const Vec3 sum = wi + wo;
     const double length = std::hypot(sum.x(), sum.y(), sum.z());
-    const double versine = 0.25 * (wi - wo).squaredNorm() / (1 + 0.5 * length);
-    const double square = versine * versine;
-    const Rgb fresnel = f0_ + (1 - f0_) * (square * square * versine);
+    const Rgb fresnel = schlick_fresnel(f0_, wo, wi, length);
     const double masking = area_(wi.z()) * area_(wo.z());
     return fresnel * (0.25 * area_.of_normal() * (*density_)(of_half(sum, length)) / masking);
   }
@@ -70,7 +69,7 @@ class AshikhminPremozeShirleyLobe final : public Brdf {
   [[nodiscard]] std::size_t bytes() const override { return sizeof f0_ + density_->bytes() + area_.bytes(); }
 
   /// The mean of F over the cosine hemisphere, to weigh draws by.
-  [[nodiscard]] Rgb strength() const { return f0_ + (1 - f0_) / 21; }
+  [[nodiscard]] Rgb strength() const { return mean_schlick_fresnel(f0_); }
 
  protected:
   [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {

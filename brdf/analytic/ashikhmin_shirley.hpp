@@ -19,6 +19,7 @@
 /// |wi - wo|^2 / 4 / (1 + |wi + wo|/2).
 
 #include "brdf/analytic/check.hpp"
+#include "brdf/analytic/fresnel.hpp"
 #include "brdf/analytic/info.hpp"
 #include "brdf/analytic/power_lobe.hpp"
 
@@ -46,9 +47,7 @@ class AshikhminShirley final : public Brdf {
     if (!(wo.z() > 0 && wi.z() > 0)) return Rgb::Zero();
     const Vec3 sum = wi + wo;
     const double length = std::hypot(sum.x(), sum.y(), sum.z());
-    const double versine = 0.25 * (wi - wo).squaredNorm() / (1 + 0.5 * length);
-    const double square = versine * versine;
-    const Rgb fresnel = specular_ + (1 - specular_) * (square * square * versine);
+    const Rgb fresnel = schlick_fresnel(specular_, wo, wi, length);
     const double glossy = 0.5 * normals(sum, length) / length / std::max(wi.z(), wo.z());
     const Rgb below = diffuse_ * (1 - specular_) * (28 * std::numbers::inv_pi / 23 * (shade(wi.z()) * shade(wo.z())));
     return below + fresnel * std::min(glossy, power_lobe::kLargest);

@@ -24,6 +24,7 @@
 #include <numbers>
 
 #include "brdf/analytic/check.hpp"
+#include "brdf/analytic/fresnel.hpp"
 #include "brdf/analytic/info.hpp"
 
 namespace sklar::brdf {
@@ -51,9 +52,7 @@ class Ggx final : public Brdf {
   [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const override {
     if (!(wo.z() > 0 && wi.z() > 0)) return Rgb::Zero();
     const Vec3 sum = wi + wo;
-    const double versine = 0.25 * (wi - wo).squaredNorm() / (1 + 0.5 * sum.norm());
-    const double square = versine * versine;
-    const Rgb fresnel = f0_ + (1 - f0_) * (square * square * versine);
+    const Rgb fresnel = schlick_fresnel(f0_, wo, wi, sum.norm());
     // One order for both (wo, wi) and (wi, wo), whatever the compiler makes of a product and a sum.
     const auto [low, high] = std::minmax({wo.z() * stretch(wi), wi.z() * stretch(wo)});
     return fresnel * (normals(sum) / (2 * (low + high)));
@@ -70,7 +69,7 @@ class Ggx final : public Brdf {
   }
 
   /// The mean of F over the cosine hemisphere, to weigh draws by.
-  [[nodiscard]] Rgb strength() const { return f0_ + (1 - f0_) / 21; }
+  [[nodiscard]] Rgb strength() const { return mean_schlick_fresnel(f0_); }
 
  protected:
   [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
