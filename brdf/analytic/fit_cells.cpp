@@ -1,17 +1,15 @@
 #include "brdf/analytic/fit_cells.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/data/fit_weight.hpp"
 #include "brdf/geometry/coordinates.hpp"
 
 namespace sklar::brdf {
 namespace {
 
-constexpr double kLowestCosine = 0.02;
-constexpr double kEdgeWeight = 0.1;  // of cells with an angle beyond 80 degrees
 constexpr int kFolded = Grid::phi_d / 2;
 constexpr int kThetaDBlock = 6, kPhiDBlock = 18;  // cells
 constexpr double kFloor = 1e-3;                   // of w and of the ratio
@@ -27,7 +25,6 @@ struct Cell {
 
 /// The cells of a block that count.
 void collect(const MeasuredTable& table, int i, int first_j, int first_k, std::vector<Cell>& block) {
-  const double edge_cosine = std::cos(80 * std::numbers::pi / 180);
   block.clear();
   for (int j = first_j; j < first_j + kThetaDBlock; ++j) {
     for (int k = first_k; k < first_k + kPhiDBlock; ++k) {
@@ -36,9 +33,8 @@ void collect(const MeasuredTable& table, int i, int first_j, int first_k, std::v
       const int valid = table.valid[one] + table.valid[other];
       if (valid == 0) continue;
       const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
-      const double lowest = std::min(pair.wi.z(), pair.wo.z());
-      if (lowest < kLowestCosine) continue;
-      block.push_back({pair, one, other, valid * (lowest >= edge_cosine ? 1 : kEdgeWeight)});
+      const double counts = fit_weight(pair);
+      if (counts > 0) block.push_back({pair, one, other, valid * counts});
     }
   }
 }
@@ -65,17 +61,6 @@ std::vector<Cell> chosen_cells(const MeasuredTable& table, std::size_t& in_table
   return chosen;
 }
 
-/// Values whose mean is less are brought to a mean of 0.1.
-double scale_of(const MeasuredTable& table) {
-  constexpr double kTiny = 1e-3, kOrdinary = 0.1;
-  double sum = 0;
-  for (const auto& plane : table.values) {
-    for (const double value : plane) sum += value;
-  }
-  const double mean = sum / (3.0 * static_cast<double>(table.valid_cells()));
-  return mean > 0 && mean < kTiny ? kOrdinary / mean : 1;
-}
-
 /// sqrt(x^2 + e^2) - e.
 Eigen::ArrayXd soft_absolute(const Eigen::ArrayXd& x, double softness) {
   return (x.square() + softness * softness).sqrt() - softness;
@@ -86,7 +71,7 @@ Eigen::ArrayXd soft_absolute(const Eigen::ArrayXd& x, double softness) {
 FitCells fit_cells(const MeasuredTable& table) {
   require_table("fit_cells", table);
   FitCells cells;
-  cells.scale = scale_of(table);
+  cells.scale = fit_scale(table.values, table.valid_cells());
   const std::vector<Cell> chosen = chosen_cells(table, cells.in_table);
   if (chosen.empty()) {
     throw std::invalid_argument("fit_cells: table '" + table.name +

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "brdf/data/fit_weight.hpp"
 #include "brdf/geometry/coordinates.hpp"
 
 namespace sklar::brdf {
@@ -42,8 +43,6 @@ struct Picked {
 
 /// Cells of one bin of theta_h and theta_d.
 void pick(const AnisotropicTable& table, int i, int j, int samples, std::vector<Picked>& picked) {
-  constexpr double kLowestCosine = 0.02, kEdgeWeight = 0.1;
-  const double edge = std::cos(80 * std::numbers::pi / 180);
   const AnisotropicGrid& grid = table.grid;
   const int count = grid.phi_h * grid.phi_d;
   Spread spread(count, 977 * i + 331 * j);
@@ -54,8 +53,8 @@ void pick(const AnisotropicTable& table, int i, int j, int samples, std::vector<
     const std::size_t cell = grid.index(i, m, j, k);
     if (!table.valid[cell]) continue;
     const DirectionPair pair = directions4(grid.centre(i, m, j, k));
-    const double lowest = std::min(pair.wi.z(), pair.wo.z());
-    if (lowest >= kLowestCosine) picked.push_back({cell, pair, lowest >= edge ? 1 : kEdgeWeight});
+    const double counts = fit_weight(pair);
+    if (counts > 0) picked.push_back({cell, pair, counts});
   }
   // What was picked stands for the valid ones among all cells of the bin.
   for (std::size_t n = first; n < picked.size(); ++n) picked[n].weight *= static_cast<double>(samples) / tried;
@@ -97,24 +96,13 @@ AnisotropicSlice make_slice(const AnisotropicTable& table, const AnisotropicStru
   return slice;
 }
 
-/// Values so small that no measure of error would see them are brought to a mean of 0.1.
-double scale_of(const AnisotropicTable& table) {
-  constexpr double kTiny = 1e-3, kOrdinary = 0.1;
-  double sum = 0;
-  for (const std::vector<float>& plane : table.values) {
-    for (const float value : plane) sum += static_cast<double>(value);
-  }
-  const double mean = sum / (3.0 * static_cast<double>(table.valid_cells()));
-  return mean > 0 && mean < kTiny ? kOrdinary / mean : 1;
-}
-
 }  // namespace
 
 AnisotropicCells anisotropic_cells(const AnisotropicTable& table, const AnisotropicStructure& structure,
                                    CellMeasure measure, int samples) {
   require_table("fit_anisotropic", table);
   AnisotropicCells cells{.slices = std::vector<AnisotropicSlice>(static_cast<std::size_t>(table.grid.theta_d)),
-                         .scale = scale_of(table)};
+                         .scale = fit_scale(table.values, table.valid_cells())};
   tbb::parallel_for(std::size_t{0}, cells.slices.size(), [&](std::size_t j) {
     cells.slices[j] = make_slice(table, structure, static_cast<int>(j), measure, samples, cells.scale);
   });

@@ -1,18 +1,14 @@
 #include "brdf/model/refined_cells.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "brdf/data/fit_weight.hpp"
 #include "brdf/geometry/coordinates.hpp"
 #include "brdf/model/warp.hpp"
 
 namespace sklar::brdf {
 namespace {
 
-constexpr double kLowestCosine = 0.02;
-constexpr double kEdgeWeight = 0.1;  // of cells with an angle beyond 80 degrees
 constexpr int kFolded = Grid::phi_d / 2;
 
 /// Azimuth bins of the columns at a bin of theta_h and theta_d: evenly spaced, shifted from bin to bin.
@@ -27,7 +23,6 @@ struct Filler {
   CellMeasure measure;
   const RefinedStructure& structure;
   const CellImportance* importance;
-  double edge_cosine;
 
   /// One column; returns its weight.
   double fill(LossSlice& slice, int i, int j, int column) const {
@@ -36,8 +31,8 @@ struct Filler {
     const auto other = static_cast<std::size_t>(Grid::index(i, j, Grid::phi_d - 1 - k));
     const int valid = table.valid[one] + table.valid[other];
     const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
-    const double lowest = std::min(pair.wi.z(), pair.wo.z());
-    if (valid == 0 || lowest < kLowestCosine) return 0;
+    const double counts = fit_weight(pair);
+    if (valid == 0 || counts == 0) return 0;
     const Warped w = warp(structure.width, pair.wo, pair.wi);
     if (!structure.half_range.contains(w.half) || !structure.difference_range.contains(w.difference)) return 0;
     const auto at = static_cast<std::size_t>(i * kLossColumns + column);
@@ -47,24 +42,13 @@ struct Filler {
     slice.cos_i[at] = static_cast<float>(pair.wi.z());
     slice.cos_o[at] = static_cast<float>(pair.wo.z());
     slice.azimuth[at] = static_cast<float>(w.azimuth);
-    double weight = valid / 2.0 * (lowest >= edge_cosine ? 1 : kEdgeWeight);
+    double weight = valid / 2.0 * counts;
     if (measure == CellMeasure::per_solid_angle) weight *= cell_measure(i, j);
     if (importance != nullptr) weight *= importance->at(i, j, k);
     slice.weight[at] = static_cast<float>(weight);
     return weight;
   }
 };
-
-/// Values so small that no measure of error would see them are brought to a mean of 0.1.
-double scale_of(const MeasuredTable& table) {
-  constexpr double kTiny = 1e-3, kOrdinary = 0.1;
-  double sum = 0;
-  for (const auto& plane : table.values) {
-    for (const double value : plane) sum += value;
-  }
-  const double mean = sum / (3.0 * static_cast<double>(table.valid_cells()));
-  return mean > 0 && mean < kTiny ? kOrdinary / mean : 1;
-}
 
 }  // namespace
 
@@ -74,8 +58,8 @@ RefinedCells refined_cells(const MeasuredTable& table, CellMeasure measure, cons
   RefinedCells cells{.slices = std::vector<LossSlice>(Grid::theta_d),
                      .half = Eigen::ArrayXd(Grid::theta_h),
                      .difference = Eigen::ArrayXd(Grid::theta_d),
-                     .scale = scale_of(table)};
-  const Filler filler{table, measure, structure, importance, std::cos(80 * std::numbers::pi / 180)};
+                     .scale = fit_scale(table.values, table.valid_cells())};
+  const Filler filler{table, measure, structure, importance};
   for (int i = 0; i < Grid::theta_h; ++i) {
     const DirectionPair pair = directions({Grid::theta_h_centre(i), 0, 0});
     cells.half(i) = coordinates(structure, pair.wo, pair.wi).half;
