@@ -183,16 +183,9 @@ BrdfPtr fit(const BasisData& data, double max_bytes) {
   const std::vector<FitCell> cells = spread_cells(data.table, kCells);
   const std::vector<FitCell> choosing = spread_cells(data.table, kChoosingCells);
   const int observations = 3 * static_cast<int>(tables.size());
-  BrdfPtr best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [grid, count] : structures(max_bytes, observations)) {
-    const BrdfPtr model = fit_structure(tables, grid, count, cells);
-    const double error = log_error(*model, choosing);
-    if (best && !(error < least)) continue;
-    least = error;
-    best = model;
-  }
-  return best;
+  return best_structure(structures(max_bytes, observations), choosing, [&](const Structure& structure) {
+    return fit_structure(tables, structure.grid, structure.count, cells);
+  });
 }
 
 }  // namespace

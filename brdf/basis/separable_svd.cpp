@@ -118,16 +118,8 @@ BrdfPtr fit(const BasisData& data, double max_bytes) {
   if (list.empty()) require_budget("separable_svd", 6 + 8 + 6 * 12 + 2 * 18, max_bytes);
   const TableBrdf table(std::make_shared<const MeasuredTable>(filled(data.table)));
   const std::vector<FitCell> cells = spread_cells(data.table, kChoosingCells);
-  BrdfPtr best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Structure& structure : list) {
-    const auto model = fit_structure(table, structure.grid, structure.rank);
-    const double error = log_error(*model, cells);
-    if (best && !(error < least)) continue;
-    least = error;
-    best = model;
-  }
-  return best;
+  return best_structure(
+      list, cells, [&](const Structure& structure) { return fit_structure(table, structure.grid, structure.rank); });
 }
 
 }  // namespace
