@@ -16,6 +16,7 @@ using Rgb = Eigen::Array3d;
 using Directions = Eigen::ArrayX3d;                       ///< n x 3, unit rows
 using DirectionsRef = Eigen::Ref<const Eigen::ArrayX3d>;  ///< read-only view
 using RgbRows = Eigen::ArrayX3d;                          ///< n x 3, red green blue
+using UniformsRef = Eigen::Ref<const Eigen::ArrayX2d>;    ///< n x 2, in (0,1)
 
 /// What a model claims of itself; the conformance suite tests each claim.
 struct Traits {
@@ -35,6 +36,13 @@ struct Sample {
   Vec3 wi;
   double pdf;  ///< per solid angle
   Rgb weight;  ///< f_r cos(theta_i) / pdf; 0 for a draw below the horizon
+};
+
+/// A Sample a row.
+struct Samples {
+  Directions wi;
+  Eigen::ArrayXd pdf;
+  RgbRows weight;
 };
 
 /// Immutable and thread-safe; single calls do not allocate.
@@ -59,6 +67,13 @@ class Brdf {
   /// One draw of wi given wo from two uniforms in (0,1). The weight f cos / pdf is computed here and nowhere else.
   [[nodiscard]] Sample sample(const Vec3& wo, const Vec2& uniforms) const;
 
+  /// Row by row the same numbers as the single call. @param wo n x 3. @param uniforms n x 2.
+  /// @throws std::invalid_argument if the row counts differ.
+  template <typename Wo, typename Uniforms>
+  [[nodiscard]] Samples sample(const Eigen::ArrayBase<Wo>& wo, const Eigen::ArrayBase<Uniforms>& uniforms) const {
+    return sample_rows(wo.derived(), uniforms.derived());
+  }
+
   [[nodiscard]] virtual Traits traits() const = 0;
 
   /// Size in bytes of everything evaluation needs.
@@ -74,8 +89,12 @@ class Brdf {
   /// Default: the two calls.
   [[nodiscard]] virtual Draw draw(const Vec3& wo, const Vec2& uniforms) const;
 
+  /// The same row by row, into wi and pdf of `out`.
+  virtual void draw_batch(const DirectionsRef& wo, const UniformsRef& uniforms, Samples& out) const;
+
  private:
   [[nodiscard]] RgbRows eval_rows(const DirectionsRef& wo, const DirectionsRef& wi) const;
+  [[nodiscard]] Samples sample_rows(const DirectionsRef& wo, const UniformsRef& uniforms) const;
 };
 
 using BrdfPtr = std::shared_ptr<const Brdf>;

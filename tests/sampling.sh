@@ -36,7 +36,9 @@ call_times() {
     sub(/_median$/, "", $1) { split($1, part, "/"); if (part[2] == "one") name[++count] = part[1]; time[$1] = $4 / 4096 }
     END { for (i = 1; i <= count; ++i) {
             quantity = name[i]; gsub("_", " ", quantity); sub("sample pdf and", "sample, pdf and", quantity)
-            printf "| %s | %.0f | %.0f |\n", quantity, time[name[i] "/one"], time[name[i] "/waiting"] } }'
+            batch = name[i] "/batch"
+            printf "| %s | %.0f | %.0f | %s |\n", quantity, time[name[i] "/one"], time[name[i] "/waiting"],
+              batch in time ? sprintf("%.0f", time[batch]) : "" } }'
 }
 
 # What stands behind the tables is written by hand.
@@ -90,18 +92,20 @@ HEAD
 
 ## How long a sample takes
 
-Nanoseconds of one call at a time on one thread (`tests/bench/brdf_bench.cpp`), of the 4 KB refined model of chm_mint and
-its sampler, random wo; the value is RGB. In the second column each call waits for what the last one gave.
+Nanoseconds on one thread (`tests/bench/brdf_bench.cpp`), of the 4 KB refined model of chm_mint and its sampler, random wo;
+the value is RGB. In the first column one call at a time, in the second each waits for what the last one gave, in the third
+many in one call (`sample` of rows of wo and of uniforms, the same numbers to the last bit).
 
-| call | ns | waiting |
-| --- | ---: | ---: |
+| call | ns | waiting | in a batch |
+| --- | ---: | ---: | ---: |
 TIMES
   call_times "$folder"/chm_mint_rgb.bsdf
   cat <<'TIMES'
 
 A draw is a chain: the node of theta_o, the component, a search and a root for each coordinate, the direction; then its
 density and the value, each a chain too. What a renderer waits for is their sum, little less: while one chain is under way,
-there is room for few instructions of the next call.
+there is room for few instructions of the next call. In a batch sixteen draws go from step to step together, and steps that
+need no table are vectors.
 TIMES
   printf '\n%s\n' "$kept"
 } >docs/sampling.md

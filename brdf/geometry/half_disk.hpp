@@ -34,8 +34,9 @@ struct FoldedAzimuth {
   }
 };
 
-/// What the coordinates need of wo, above the horizon.
+/// What the coordinates need of wo, above the horizon; by default, along the normal.
 struct Outgoing {
+  Outgoing() = default;
   explicit Outgoing(const Vec3& wo) : sine(std::sqrt(wo.x() * wo.x() + wo.y() * wo.y())) {
     constexpr double kLeast = 1e-8;     // the cosine below which nothing changes any more, so that all stays finite
     constexpr double kNormal = 1e-100;  // below, the plane of incidence has no meaning left, and none is needed
@@ -43,8 +44,8 @@ struct Outgoing {
     if (sine > kNormal) along = Vec2(wo.x(), wo.y()) * (1 / sine);
   }
 
-  double sine, cosine;      ///< of theta_o
-  Vec2 along = Vec2(1, 0);  ///< unit, wo's direction in the plane of the surface
+  double sine = 0, cosine = 1;  ///< of theta_o
+  Vec2 along = Vec2(1, 0);      ///< unit, wo's direction in the plane of the surface
 };
 
 /// Of the half vector of two directions above the horizon.

@@ -41,6 +41,11 @@ class ConditionalSampler {
   /// The direction and its density, the same to the last bit as by two calls.
   [[nodiscard]] Draw draw(const Vec3& wo, const Vec2& uniforms) const { return sampler_draw(tables_, wo, uniforms); }
 
+  /// The same row by row, into wi and pdf of `out`.
+  void draw(const DirectionsRef& wo, const UniformsRef& uniforms, Samples& out) const {
+    sampler_draw_rows(tables_, wo, uniforms, out);
+  }
+
   /// Of the tables; below 16 KB whatever the reflectance.
   [[nodiscard]] std::size_t bytes() const { return tables_.bytes(); }
 

@@ -28,6 +28,9 @@ class SampledBrdf final : public Brdf {
     return sampler_.sample_direction(wo, uniforms);
   }
   [[nodiscard]] Draw draw(const Vec3& wo, const Vec2& uniforms) const override { return sampler_.draw(wo, uniforms); }
+  void draw_batch(const DirectionsRef& wo, const UniformsRef& uniforms, Samples& out) const override {
+    sampler_.draw(wo, uniforms, out);
+  }
 
  private:
   BrdfPtr brdf_;

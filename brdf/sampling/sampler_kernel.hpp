@@ -19,4 +19,7 @@ inline constexpr double kSamplerCosineShare = 0.002;
 /// The direction of sampler_direction and what sampler_pdf gives for it, to the last bit of both.
 [[nodiscard]] Draw sampler_draw(const SamplerTables& tables, const Vec3& wo, const Vec2& uniforms);
 
+/// sampler_draw row by row, the same numbers to the last bit, in less time.
+void sampler_draw_rows(const SamplerTables& tables, const DirectionsRef& wo, const UniformsRef& uniforms, Samples& out);
+
 }  // namespace sklar::brdf

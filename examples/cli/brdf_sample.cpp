@@ -33,11 +33,9 @@ void run(const Options& options, const Common& common) {
   const brdf::BrdfPtr material = load_sampled_brdf(options.material);
   Rng rng(common.seed);
   const Points u = uniforms(rng, options.n, 2);
+  const brdf::Samples draws = material->sample(wo.transpose().array().replicate(options.n, 1), u);
   Points rows(options.n, 7);
-  for (Index i = 0; i < options.n; ++i) {
-    const brdf::Sample draw = material->sample(wo, {u(i, 0), u(i, 1)});
-    rows.row(i) << draw.wi.transpose().array(), draw.pdf, draw.weight.transpose();
-  }
+  rows << draws.wi, draws.pdf, draws.weight;
   write_table(options.output, {"wi_x", "wi_y", "wi_z", "pdf", "weight_r", "weight_g", "weight_b"}, rows, common.json);
 }
 

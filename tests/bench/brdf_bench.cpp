@@ -66,6 +66,23 @@ void add(const std::string& name, const Call& call) {
                                [call](benchmark::State& state) { repeat<true>(state, call); });
 }
 
+/// sample_pdf_and_value of all calls in batches.
+void add_batch(const std::shared_ptr<const SampledBrdf>& model, const Arguments& at) {
+  Directions wo(kCalls, 3);
+  Eigen::ArrayX2d uniforms(kCalls, 2);
+  for (std::size_t i = 0; i < kCalls; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    wo.row(row) = at.wo[i].transpose();
+    uniforms.row(row) = at.uniforms[i].transpose();
+  }
+  benchmark::RegisterBenchmark("sample_pdf_and_value/batch", [=](benchmark::State& state) {
+    for (auto _ : state) {
+      const Samples samples = model->sample(wo, uniforms);
+      benchmark::DoNotOptimize(samples.weight.data());
+    }
+  });
+}
+
 MeasuredTable material(int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' ? load_material(argv[1]) : builtin_material();
 }
@@ -85,6 +102,7 @@ void run(int argc, char** argv) {
     const Sample sample = model->sample(moved(at->wo[i], nothing), at->uniforms[i]);
     return sample.pdf + sample.weight.sum();
   });
+  add_batch(model, *at);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

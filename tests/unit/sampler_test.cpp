@@ -213,6 +213,32 @@ TEST_P(SampledKind, DrawsAlikeInEveryInstructionSet) {
   });
 }
 
+TEST_P(SampledKind, ManyDrawsAreThoseOfOneAtATime) {
+  constexpr Eigen::Index kDraws = 1003;
+  const SampledBrdf& brdf = sampled(GetParam());
+  Rng rng(test::seed_of_this_test());
+  Directions wo(kDraws, 3);
+  Eigen::ArrayX2d uniforms(kDraws, 2);
+  for (Eigen::Index n = 0; n < kDraws; ++n) {
+    wo.row(n) = test::uniform_hemisphere(rng).array().transpose();
+    uniforms.row(n) << uniform(rng) * (n % 50 == 0 ? ConditionalSampler::kCosineShare : 1), uniform(rng);
+  }
+  wo.row(7) << 0, 0, 1;
+  wo.row(19) << 0.6, 0, -0.8;
+  wo.row(23) << 1, 0, 0;
+  test::for_each_target([&] {
+    const Samples many = brdf.sample(wo, uniforms);
+    for (Eigen::Index n = 0; n < kDraws; ++n) {
+      const Sample one = brdf.sample(Vec3(wo.row(n).transpose()), Vec2(uniforms.row(n).transpose()));
+      ASSERT_EQ(one.wi, Vec3(many.wi.row(n).transpose())) << n;
+      ASSERT_EQ(one.pdf, many.pdf(n)) << n;
+      ASSERT_TRUE((one.weight == many.weight.row(n).transpose()).all()) << n;
+    }
+  });
+  EXPECT_EQ(brdf.sample(wo.topRows(0), uniforms.topRows(0)).pdf.size(), 0);
+  EXPECT_THROW(static_cast<void>(brdf.sample(wo, uniforms.topRows(5))), std::invalid_argument);
+}
+
 TEST(ConditionalSampler, FollowsWhatItIsMadeOf) {
   for (const double alpha : {1e-4, 0.03, 0.4}) {
     const SampledBrdf brdf(std::make_shared<const Ggx>(Rgb(0.9, 0.9, 0.9), alpha));
