@@ -8,10 +8,20 @@
 namespace sklar::brdf {
 namespace {
 
+constexpr int kMostCoefficients = 128;  // along an axis
+
 void require_count(const char* field, int value, int lowest, int highest) {
   if (value >= lowest && value <= highest) return;
   throw std::invalid_argument("refined model: " + std::string(field) + " is " + std::to_string(value) +
                               ", allowed are " + std::to_string(lowest) + " to " + std::to_string(highest));
+}
+
+/// One coefficient is a constant.
+void require_colour_count(const char* field, int value) {
+  if (value == 1 || (value >= kSplineOrder && value <= kMostCoefficients)) return;
+  throw std::invalid_argument("refined model: " + std::string(field) + " is " + std::to_string(value) +
+                              ", allowed are 1 and " + std::to_string(kSplineOrder) + " to " +
+                              std::to_string(kMostCoefficients));
 }
 
 void require_range(const char* field, const AxisRange& range) {
@@ -24,15 +34,14 @@ void require_range(const char* field, const AxisRange& range) {
 }  // namespace
 
 void require_structure(const RefinedStructure& structure) {
-  constexpr int kMost = 128;
   require_count("components", structure.components, 1, kMostComponents);
-  require_count("half", structure.half, kSplineOrder, kMost);
-  require_count("difference", structure.difference, kSplineOrder, kMost);
-  require_count("colour_half", structure.colour_half, kSplineOrder, kMost);
-  require_count("colour_difference", structure.colour_difference, kSplineOrder, kMost);
+  require_count("half", structure.half, kSplineOrder, kMostCoefficients);
+  require_count("difference", structure.difference, kSplineOrder, kMostCoefficients);
+  require_colour_count("colour_half", structure.colour_half);
+  require_colour_count("colour_difference", structure.colour_difference);
   require_count("azimuth", structure.azimuth, 0, kHighestDegree);
-  require_count("azimuth_difference", structure.azimuth_difference, kSplineOrder, kMost);
-  require_count("coupling_difference", structure.coupling_difference, kSplineOrder, kMost);
+  require_count("azimuth_difference", structure.azimuth_difference, kSplineOrder, kMostCoefficients);
+  require_count("coupling_difference", structure.coupling_difference, kSplineOrder, kMostCoefficients);
   if (!(structure.width > 0 && structure.width <= 100)) {
     throw std::invalid_argument("refined model: width is " + sklar::to_text(structure.width) +
                                 ", allowed are (0, 100]");

@@ -29,7 +29,7 @@ struct RefinedStructure {
   int components = 6;               ///< 1 to kMostComponents
   int half = 20;                    ///< spline coefficients of a component's log density along half, 4 to 128
   int difference = 12;              ///< and along difference, 4 to 128
-  int colour_half = 4;              ///< of log red / green and log blue / green
+  int colour_half = 4;              ///< of log red / green and log blue / green, these or 1: the same everywhere
   int colour_difference = 6;        ///<
   int azimuth = 4;                  ///< degree of the Bernstein polynomials in azimuth, 0 to kHighestDegree
   int azimuth_difference = 8;       ///< spline coefficients of each of its coefficients along difference

@@ -14,6 +14,7 @@ SplineWeights spline_weights(double x, int count) {
 }
 
 Eigen::MatrixXd spline_basis(const Eigen::ArrayXd& x, int count) {
+  if (count == 1) return Eigen::MatrixXd::Ones(x.size(), 1);
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(x.size(), count);
   for (Eigen::Index row = 0; row < x.size(); ++row) {
     const SplineWeights weights = spline_weights(x(row), count);

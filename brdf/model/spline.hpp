@@ -17,7 +17,7 @@ struct SplineWeights {
 /// @param x in [0,1]; outside the end polynomials go on. @param count of coefficients, >= kSplineOrder.
 [[nodiscard]] SplineWeights spline_weights(double x, int count);
 
-/// Row i: all weights at x(i). x.size() x count.
+/// Row i: all weights at x(i). x.size() x count. One coefficient alone is a constant.
 [[nodiscard]] Eigen::MatrixXd spline_basis(const Eigen::ArrayXd& x, int count);
 
 /// Column m - 1: the coefficients of z, .., z^degree in the Bernstein polynomial C(degree, m) z^m (1 - z)^(degree - m).

@@ -119,14 +119,16 @@ class Judge {
 std::string describe(const SceneModel& model, const char* what) {
   const RefinedStructure& s = model.fit.brdf->structure();
   char row[240];
-  std::snprintf(row, sizeof row, "| %d | %d x %d | %d to %d | %d to %d | %d | %d | %zu | %.1f | %.3f | %s |\n",
-                s.components, s.half, s.difference, s.half_range.low, s.half_range.high, s.difference_range.low,
-                s.difference_range.high, s.azimuth, model.bits, model.fit.brdf->bytes(), model.errors.psnr_gamma_db,
-                model.errors.delta_e_2000, what);
+  std::snprintf(row, sizeof row,
+                "| %d | %d x %d | %d to %d | %d to %d | %d | %d x %d | %d | %zu | %.1f | %.3f | %s |\n", s.components,
+                s.half, s.difference, s.half_range.low, s.half_range.high, s.difference_range.low,
+                s.difference_range.high, s.azimuth, s.colour_half, s.colour_difference, model.bits,
+                model.fit.brdf->bytes(), model.errors.psnr_gamma_db, model.errors.delta_e_2000, what);
   return row;
 }
 
-/// The first structure whose model meets the tolerance, without azimuth and with fewer bits where that still does.
+/// The first structure whose model meets the tolerance, without azimuth, with the colour constant along either axis and
+/// with fewer bits where that still does.
 SceneModel smallest(const Judge& judge, const std::function<RefinedStructure(const RefinedStructure&)>& structure_of,
                     const std::shared_ptr<const CellImportance>& importance, std::vector<SceneModel>* tried) {
   SceneModel last;
@@ -135,11 +137,17 @@ SceneModel smallest(const Judge& judge, const std::function<RefinedStructure(con
     last = judge.fit(structure, importance);
     if (tried != nullptr) tried->push_back(last);
     if (!judge.meets(last)) continue;
-    RefinedStructure without = structure;
-    without.azimuth = 0;
-    const SceneModel simpler = judge.fit(without, importance);
-    if (tried != nullptr) tried->push_back(simpler);
-    return judge.with_fewest_bits(judge.meets(simpler) ? simpler : last);
+    const auto simplify = [&](const auto& drop) {
+      RefinedStructure without = last.fit.brdf->structure();
+      drop(without);
+      const SceneModel simpler = judge.fit(without, importance);
+      if (tried != nullptr) tried->push_back(simpler);
+      if (judge.meets(simpler)) last = simpler;
+    };
+    simplify([](RefinedStructure& s) { s.azimuth = 0; });
+    simplify([](RefinedStructure& s) { s.colour_difference = 1; });
+    simplify([](RefinedStructure& s) { s.colour_half = 1; });
+    return judge.with_fewest_bits(last);
   }
   char text[160];
   std::snprintf(text, sizeof text,
@@ -173,8 +181,9 @@ SceneChoice fit_for_scene(const MeasuredTable& table, const Scene& scene, const 
 
 std::string to_markdown(const SceneChoice& choice) {
   std::string text =
-      "| components | theta_h x theta_d | theta_h, 64ths | theta_d, 64ths | azimuth | bits | bytes | PSNR, dB | "
-      "Delta-E | |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n";
+      "| components | theta_h x theta_d | theta_h, 64ths | theta_d, 64ths | azimuth | colour | bits | bytes | PSNR, dB "
+      "| "
+      "Delta-E | |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n";
   for (const SceneModel& model : choice.tried) text += describe(model, "");
   text += describe(choice.scene, "chosen") + describe(choice.general, "without the scene");
   const std::size_t bytes = choice.scene.fit.brdf->bytes(), general = choice.general.fit.brdf->bytes();

@@ -47,8 +47,9 @@ struct SceneChoice {
 
 /// From the smallest structure on, each with as many coefficients as it would have on the part of the axes that the
 /// scene uses, fitted to the cells by what they count in the picture, until one meets the tolerance; then without
-/// azimuth and with less precise coefficients where the picture allows it. The same for a model of all cells. All
-/// pictures are of the same paths, so that their differences are those of the models.
+/// azimuth, with the colour constant along either axis and with less precise coefficients where the picture allows it.
+/// The same for a model of all cells. All pictures are of the same paths, so that their differences are those of the
+/// models.
 /// @param scene with objects of the material `shown`, which reflects as the table; its sampler draws the directions.
 /// @param progress called with what is being done.
 /// @throws std::invalid_argument as render_paths and fit_refined; std::runtime_error where the picture does not show

@@ -63,34 +63,6 @@ double log1p_mae(const MeasuredTable& table, const Brdf& brdf) {
   return cell_errors(table, predict(brdf, table)).log1p_mae.mean();
 }
 
-TEST(Spline, WeightsSumToOneAndFollowPolynomialsOfDegreeThree) {
-  constexpr int kCount = 9;
-  constexpr double kTolerance = 1e-14;
-  for (const double x : {0.0, 1e-9, 0.3, 0.5, 0.999, 1.0}) {
-    const SplineWeights w = spline_weights(x, kCount);
-    EXPECT_GE(w.first, 0);
-    EXPECT_LE(w.first + kSplineOrder, kCount);
-    double sum = 0, line = 0;
-    for (int i = 0; i < kSplineOrder; ++i) {
-      const double weight = w.weight[static_cast<std::size_t>(i)];
-      EXPECT_GE(weight, 0);
-      sum += weight;
-      line += weight * (w.first + i - 1) / (kCount - 3);  // the coefficient of x is the middle of its spline
-    }
-    EXPECT_NEAR(sum, 1, kTolerance);
-    EXPECT_NEAR(line, x, kTolerance);
-  }
-}
-
-TEST(Spline, BernsteinPolynomialsAsPowers) {
-  const Eigen::MatrixXd powers = bernstein_powers(3);
-  const double z = 0.3;
-  const Eigen::Vector3d at = powers.transpose() * Eigen::Vector3d(z, z * z, z * z * z);
-  EXPECT_NEAR(at(0), 3 * z * 0.7 * 0.7, 1e-15);
-  EXPECT_NEAR(at(1), 3 * z * z * 0.7, 1e-15);
-  EXPECT_NEAR(at(2), z * z * z, 1e-15);
-}
-
 TEST(Warp, IsReciprocalToTheBitAndInTheUnitCube) {
   const Directions wo = random_hemisphere(2000, 1), wi = random_hemisphere(2000, 2);
   for (Eigen::Index i = 0; i < wo.rows(); ++i) {
@@ -107,21 +79,6 @@ TEST(Warp, IsReciprocalToTheBitAndInTheUnitCube) {
   EXPECT_EQ(normal.half, 0);
   EXPECT_EQ(normal.difference, 0);
   EXPECT_EQ(normal.azimuth, 0);
-}
-
-TEST(Spline, AzimuthPowersAreTheBernsteinPolynomials) {
-  constexpr double kTolerance = 1e-14;
-  for (const int degree : {1, 4, 6}) {
-    const Eigen::MatrixXd powers = azimuth_powers(degree);
-    for (const double z : {0.0, 0.1, 0.5, 0.9, 1.0}) {
-      for (int m = 1; m <= degree; ++m) {
-        double value = 0;
-        for (int j = degree; j-- > 0;) value = value * (z - 0.5) + powers(j, m - 1);
-        const double choose = std::tgamma(degree + 1) / std::tgamma(m + 1) / std::tgamma(degree - m + 1);
-        EXPECT_NEAR(z * value, choose * std::pow(z, m) * std::pow(1 - z, degree - m), kTolerance) << degree << m << z;
-      }
-    }
-  }
 }
 
 TEST(RefinedProblem, GradientIsThatOfTheObjective) {
@@ -374,54 +331,6 @@ TEST(Budget, SaysWhatIsTheBestWhereNoModelMeetsIt) {
   }
   EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = 10}, search, options), std::runtime_error);
   EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = -1}, search, options), std::invalid_argument);
-}
-
-/// Cells from a theta_d of 50 degrees on count.
-std::shared_ptr<const CellImportance> towards_grazing() {
-  auto importance = std::make_shared<CellImportance>();
-  for (int i = 0; i < Grid::theta_h; ++i) {
-    for (int j = 50; j < Grid::theta_d; ++j) {
-      for (int k = 0; k < CellImportance::kAzimuths; ++k) importance->bin(i, j, k) = 1;
-    }
-  }
-  return importance;
-}
-
-TEST(RefinedRanges, SpendAllCoefficientsOnThePartThatCounts) {
-  RefinedFitOptions options{.structure = small(), .evaluations = 200, .importance = towards_grazing()};
-  options.structure.difference = 4;
-  const RefinedFit whole = fit_refined(builtin(), options);
-  options.structure.difference_range = {30, 64};
-  const RefinedFit part = fit_refined(builtin(), options);
-  EXPECT_LT(part.objective, 0.8 * whole.objective);
-  EXPECT_EQ(part.brdf->bytes(), whole.brdf->bytes() + 4);
-}
-
-TEST(RefinedRanges, AreTheSameInTheKernelAndInFiles) {
-  RefinedFitOptions options{.structure = small(), .evaluations = 40};
-  options.structure.half_range = {8, 60};
-  options.structure.difference_range = {3, 40};
-  const auto brdf = fit_refined(builtin(), options).brdf;
-  const StoredBrdf stored{.material = "part", .provenance = Provenance::synthetic, .model = brdf};
-  const BrdfPtr from_json = parse_brdf(to_json(stored), "json").brdf();
-  const BrdfPtr from_binary = parse_binary(to_binary(stored), "binary").brdf();
-  const Directions all_wo = random_hemisphere(300, 3), all_wi = random_hemisphere(300, 4);
-  constexpr double kSingle = 2e-5;  // relative, of single precision
-  for (Eigen::Index i = 0; i < all_wo.rows(); ++i) {
-    const Vec3 wo = all_wo.row(i), wi = all_wi.row(i);
-    const Rgb value = brdf->eval(wo, wi), exact = brdf->at(coordinates(brdf->structure(), wo, wi));
-    EXPECT_TRUE(((value - exact).abs() <= kSingle * exact).all());
-    EXPECT_TRUE((from_json->eval(wo, wi) == value).all());
-    EXPECT_TRUE((from_binary->eval(wo, wi) == value).all());
-  }
-}
-
-TEST(RefinedRanges, MustBeWithinTheAxis) {
-  RefinedFitOptions options{.structure = small()};
-  for (const AxisRange range : {AxisRange{-1, 5}, AxisRange{0, 65}, AxisRange{7, 7}}) {
-    options.structure.half_range = range;
-    EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
-  }
 }
 
 TEST(Energy, LowersOnlyWhatSendsBackTooMuch) {
