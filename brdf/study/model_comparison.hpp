@@ -57,7 +57,9 @@ struct ModelComparison {
                                              const std::filesystem::path& folder,
                                              const std::function<void(const std::string&)>& progress = {});
 
-/// The rows as one JSON document with the machine; as CSV; as a Markdown table.
+/// The rows as one JSON document with the machine; as CSV; as a Markdown table. The first two have rank_MEASURE for
+/// each measure of error: the rank of the row among those of its material that have a model, 1 is best, equals share
+/// the mean of theirs; "nan" without a model.
 [[nodiscard]] std::string to_json(std::span<const ModelRow> rows);
 [[nodiscard]] std::string to_csv(std::span<const ModelRow> rows);
 [[nodiscard]] std::string to_markdown(std::span<const ModelRow> rows);

@@ -44,22 +44,28 @@ constexpr std::array kFigures = {
 
 constexpr const char* kFormat = "sklar-model-comparison";
 
+std::string rank_name(const Figure& figure) {
+  return std::string("rank_") + figure.name;
+}
+
+/// A number; "inf", "-inf", "nan" for those that JSON does not have.
+Json to_number_or_text(double value) {
+  return std::isfinite(value) ? Json(value) : Json(sklar::to_text(value));
+}
+
 Json row_to_json(const ModelRow& row) {
   Json json = {{"material", row.material},
                {"provenance", to_text(row.provenance)},
                {"kind", row.kind},
                {"model", row.model},
                {"budget", row.budget}};
-  for (const Figure& figure : kFigures) {
-    const double value = row.*figure.value;
-    json[figure.name] = std::isfinite(value) ? Json(value) : Json(sklar::to_text(value));
-  }
+  for (const Figure& figure : kFigures) json[figure.name] = to_number_or_text(row.*figure.value);
   json["note"] = row.note;
   json["error"] = row.error;
   return json;
 }
 
-/// A number, or "inf", "-inf", "nan" as to_text writes them.
+/// The inverse of to_number_or_text.
 double number_or_text(const Json& object, const char* name) {
   const Json& value = json::field(object, name);
   if (!value.is_string()) return json::number(object, name);
@@ -94,9 +100,13 @@ std::string head(std::vector<std::string> headings, std::size_t texts) {
   return text + line(headings);
 }
 
-/// Rank of each row among those of its material that have the figure, 1 is best, equals share theirs.
-std::vector<double> ranks(std::span<const ModelRow> rows, const Figure& figure) {
-  std::vector<double> result;
+/// Ranks of every row by one figure; empty for a figure without ranks.
+using Ranks = std::vector<double>;
+
+/// Rank of each row among those of its material that have the figure, 1 is best, equals share theirs; NaN for a row
+/// without it.
+Ranks ranks(std::span<const ModelRow> rows, const Figure& figure) {
+  Ranks result;
   for (const ModelRow& row : rows) {
     int better = 0, equal = 0;
     for (const ModelRow& other : rows) {
@@ -105,7 +115,16 @@ std::vector<double> ranks(std::span<const ModelRow> rows, const Figure& figure) 
       better += figure.better == Better::lower ? a < b : a > b;
       equal += a == b;
     }
-    result.push_back(better + (equal + 1) / 2.0);
+    result.push_back(equal > 0 ? better + (equal + 1) / 2.0 : ModelRow::kNone);
+  }
+  return result;
+}
+
+/// In the order of kFigures.
+std::array<Ranks, kFigures.size()> ranks(std::span<const ModelRow> rows) {
+  std::array<Ranks, kFigures.size()> result;
+  for (std::size_t f = 0; f < kFigures.size(); ++f) {
+    if (kFigures[f].better != Better::neither) result[f] = ranks(rows, kFigures[f]);
   }
   return result;
 }
@@ -145,18 +164,33 @@ ModelRow model_row_from_json(std::string_view text, std::string_view source) {
 
 std::string to_json(std::span<const ModelRow> rows) {
   Json document = {{"format", kFormat}, {"version", 1}, {"machine", machine_name()}, {"rows", Json::array()}};
-  for (const ModelRow& row : rows) document["rows"].push_back(row_to_json(row));
+  const auto by_figure = ranks(rows);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    Json row = row_to_json(rows[n]);
+    for (std::size_t f = 0; f < kFigures.size(); ++f) {
+      if (!by_figure[f].empty()) row[rank_name(kFigures[f])] = to_number_or_text(by_figure[f][n]);
+    }
+    document["rows"].push_back(std::move(row));
+  }
   return document.dump(1) + "\n";
 }
 
 std::string to_csv(std::span<const ModelRow> rows) {
   std::string text = "material,provenance,kind,model,budget";
+  const auto by_figure = ranks(rows);
   for (const Figure& figure : kFigures) text += std::string(",") + figure.name;
+  for (std::size_t f = 0; f < kFigures.size(); ++f) {
+    if (!by_figure[f].empty()) text += "," + rank_name(kFigures[f]);
+  }
   text += ",note,error\n";
-  for (const ModelRow& row : rows) {
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const ModelRow& row = rows[n];
     text += csv_field(row.material) + "," + to_text(row.provenance) + "," + row.kind + "," + row.model + "," +
             sklar::to_text(row.budget);
     for (const Figure& figure : kFigures) text += "," + printed("%.17g", row.*figure.value);
+    for (const Ranks& rank : by_figure) {
+      if (!rank.empty()) text += "," + printed("%.17g", rank[n]);
+    }
     text += "," + csv_field(row.note) + "," + csv_field(row.error) + "\n";
   }
   return text;
@@ -175,13 +209,9 @@ std::string to_markdown(std::span<const ModelRow> rows) {
 }
 
 std::string summary_markdown(std::span<const ModelRow> rows) {
-  std::array<std::vector<double>, kFigures.size()> rank;
-  double measures = 0;
-  for (std::size_t f = 0; f < kFigures.size(); ++f) {
-    if (kFigures[f].better == Better::neither) continue;
-    rank[f] = ranks(rows, kFigures[f]);
-    ++measures;
-  }
+  const auto rank = ranks(rows);
+  const auto measures =
+      static_cast<double>(std::count_if(rank.begin(), rank.end(), [](const Ranks& r) { return !r.empty(); }));
   std::map<std::string, Summary> by_label;
   for (std::size_t n = 0; n < rows.size(); ++n) {
     if (!rows[n].error.empty()) continue;

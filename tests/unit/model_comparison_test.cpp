@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "brdf/analytic/lambert.hpp"
@@ -128,6 +129,36 @@ TEST(ModelTables, RankWithinAMaterialAndAverageOverThem) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
   EXPECT_NE(to_markdown(rows).find("| a | analytic | good | 8 |"), std::string::npos) << to_markdown(rows);
   EXPECT_NE(to_json(rows).find("\"model\": \"broken\""), std::string::npos);
+}
+
+TEST(ModelTables, HaveARankForEachMeasure) {
+  const auto row = [](const char* material, const char* model, double log1p_mae, double ssim) {
+    ModelRow result{.material = material, .kind = "analytic", .model = model};
+    result.log1p_mae = log1p_mae;
+    result.ssim = ssim;
+    return result;
+  };
+  // Of a: least error and least ssim are not those of one model, and two share an ssim; b is ranked by itself.
+  std::vector<ModelRow> rows = {row("a", "x", 1, 0.5), row("a", "y", 3, 0.9), row("a", "z", 2, 0.9),
+                                row("b", "x", 9, 0.1)};
+  rows.push_back({.material = "a", .kind = "basis", .model = "broken", .error = "none"});
+  const auto document = nlohmann::json::parse(to_json(rows));
+  const std::vector<double> by_error = {1, 3, 2, 1}, by_ssim = {3, 1.5, 1.5, 1};
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_EQ(document["rows"][n]["rank_log1p_mae"], by_error[n]) << n;
+    EXPECT_EQ(document["rows"][n]["rank_ssim"], by_ssim[n]) << n;
+  }
+  EXPECT_EQ(document["rows"][4]["rank_log1p_mae"], "nan");
+  EXPECT_FALSE(document["rows"][0].contains("rank_bytes"));
+  const std::string csv = to_csv(rows);
+  EXPECT_NE(csv.find(",rank_log1p_mae,rank_logrel_mae,rank_cuberoot_rms,rank_rel_l2,rank_sphere_psnr_linear_db,"
+                     "rank_psnr_gamma_db,rank_ssim,rank_delta_e_2000,note,error\n"),
+            std::string::npos)
+      << csv;
+  const std::string second = csv.substr(csv.find("a,unknown,analytic,y"));
+  const std::string line = second.substr(0, second.find('\n'));
+  EXPECT_TRUE(line.ends_with(",3,nan,nan,nan,nan,nan,1.5,nan,,")) << line;
+  EXPECT_EQ(to_json(rows[0]).find("rank"), std::string::npos) << "a row by itself has none";
 }
 
 TEST(Contenders, AreEveryModelOnce) {
