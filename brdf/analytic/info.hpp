@@ -37,6 +37,10 @@ struct AnalyticInfo {
 
   std::function<BrdfPtr(const AnalyticValues&)> make_unchecked;
 
+  /// The model of the list that this one is where isotropic, with the values but those of parameters with isotropic_as;
+  /// empty for none.
+  std::string isotropic_form = {};
+
   /// Number of values: one a parameter, three a parameter per channel.
   [[nodiscard]] std::size_t size() const;
 

@@ -54,11 +54,13 @@ Contender analytic_contender(const AnalyticInfo& info) {
           .kind = "analytic",
           .title = info.title,
           .source = info.source,
-          .fit = [&info](const ContenderData& data) {
-            const AnalyticFit fit = fit_analytic(info, *data.table);
-            const bool converged = fit.status == AnalyticFitStatus::converged;
-            return ContenderFit{fit.brdf, fit.brdf->bytes(), converged ? "" : std::string(to_text(fit.status))};
-          }};
+          .fit =
+              [&info](const ContenderData& data) {
+                const AnalyticFit fit = fit_analytic(info, *data.table);
+                const bool converged = fit.status == AnalyticFitStatus::converged;
+                return ContenderFit{fit.brdf, fit.brdf->bytes(), converged ? "" : std::string(to_text(fit.status))};
+              },
+          .isotropic_form = info.isotropic_form};
 }
 
 Contender basis_contender(const BasisInfo& info, double max_bytes) {
@@ -78,13 +80,8 @@ Contender basis_contender(const BasisInfo& info, double max_bytes) {
           }};
 }
 
-}  // namespace
-
-std::string Contender::name() const {
-  return max_bytes > 0 ? model + "-" + sklar::to_text(max_bytes) : model;
-}
-
-std::vector<Contender> all_contenders(std::span<const double> budgets) {
+/// Those that all_contenders leaves out included.
+std::vector<Contender> every_contender(std::span<const double> budgets) {
   if (budgets.empty()) throw std::invalid_argument("all_contenders: no budget given");
   for (const double budget : budgets) {
     if (!(budget > 0 && std::isfinite(budget))) {
@@ -106,8 +103,20 @@ std::vector<Contender> all_contenders(std::span<const double> budgets) {
   return list;
 }
 
+}  // namespace
+
+std::string Contender::name() const {
+  return max_bytes > 0 ? model + "-" + sklar::to_text(max_bytes) : model;
+}
+
+std::vector<Contender> all_contenders(std::span<const double> budgets) {
+  std::vector<Contender> list = every_contender(budgets);
+  std::erase_if(list, [](const Contender& contender) { return !contender.isotropic_form.empty(); });
+  return list;
+}
+
 std::vector<Contender> find_contenders(std::span<const std::string> models, std::span<const double> budgets) {
-  const std::vector<Contender> all = all_contenders(budgets);
+  const std::vector<Contender> all = every_contender(budgets);
   std::vector<Contender> result;
   for (const std::string& model : models) {
     const std::size_t before = result.size();

@@ -31,18 +31,20 @@ struct Contender {
   std::string source;    ///< reference
   double max_bytes = 0;  ///< the budget, 0 for a model of one size
   std::function<ContenderFit(const ContenderData&)> fit = {};  ///< throws std::runtime_error, std::logic_error
+  std::string isotropic_form = {};                             ///< AnalyticInfo::isotropic_form
 
   /// Of files and rows: the model, with the budget where it has one ("nmf-4096").
   [[nodiscard]] std::string name() const;
 };
 
 /// The refined model (Frank's copula, the largest structure of the ladder within each budget) with a sampler made for
-/// it, the paper's model (Frank), every analytic model, every basis model within each budget.
+/// it, the paper's model (Frank), every analytic model but those whose isotropic form is another, since tables are
+/// isotropic, every basis model within each budget.
 /// @param budgets bytes. @throws std::invalid_argument unless there is one, and all are finite and above 0.
 [[nodiscard]] std::vector<Contender> all_contenders(std::span<const double> budgets);
 
-/// Those of all_contenders whose models are named. @throws std::invalid_argument naming the unknown model and listing
-/// the known ones.
+/// Those whose models are named, those that all_contenders leaves out included. @throws std::invalid_argument naming
+/// the unknown model and listing the known ones.
 [[nodiscard]] std::vector<Contender> find_contenders(std::span<const std::string> models,
                                                      std::span<const double> budgets);
 

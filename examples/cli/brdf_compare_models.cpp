@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "brdf/analytic/not_computable.hpp"
+#include "brdf/analytic/registry.hpp"
 #include "brdf/study/model_comparison.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
@@ -33,9 +34,14 @@ Tables without(Tables tables, std::size_t n) {
   return tables;
 }
 
-/// Why some models that one would look for have no row.
-std::string not_compared() {
+/// Why some models that one would look for have no row. @param all not only those that were named.
+std::string not_compared(bool all) {
   std::string text = "| not compared | why |\n| --- | --- |\n";
+  for (const brdf::AnalyticInfo& info : brdf::analytic::all()) {
+    if (!all || info.isotropic_form.empty()) continue;
+    text.append("| ").append(info.title).append(" | On isotropic materials, the only ones here, it is ");
+    text.append(info.isotropic_form).append(" above. |\n");
+  }
   for (const auto& model : brdf::analytic::kNotComputable) {
     text += "| " + std::string(model.name) + " | " + std::string(model.why) + " |\n";
   }
@@ -50,8 +56,9 @@ std::string not_compared() {
 }  // namespace
 
 void compare_models(const ModelCompareOptions& options, bool json) {
-  const auto contenders = options.models == "all" ? brdf::all_contenders(options.budgets)
-                                                  : brdf::find_contenders(split_csv(options.models), options.budgets);
+  const bool all = options.models == "all";
+  const auto contenders =
+      all ? brdf::all_contenders(options.budgets) : brdf::find_contenders(split_csv(options.models), options.budgets);
   const Tables tables = load_tables(options);
   const std::filesystem::path folder = options.folder;
   const StepLine steps;
@@ -65,7 +72,7 @@ void compare_models(const ModelCompareOptions& options, bool json) {
     files.push_back(brdf::write_model_sheet(comparison, folder));
     write_file(folder / "models.json", to_json(rows));
     write_file(folder / "models.csv", to_csv(rows));
-    write_file(folder / "models.md", to_markdown(rows) + "\n" + summary_markdown(rows) + "\n" + not_compared());
+    write_file(folder / "models.md", to_markdown(rows) + "\n" + summary_markdown(rows) + "\n" + not_compared(all));
   }
   if (json) {
     std::cout << to_json(rows);

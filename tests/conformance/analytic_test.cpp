@@ -114,6 +114,25 @@ TEST_P(AnalyticModel, ItsIsotropicValuesAreIsotropic) {
   }
 }
 
+TEST_P(AnalyticModel, IsItsIsotropicFormWhereIsotropic) {
+  const Case& c = GetParam();
+  if (c.info->isotropic_form.empty()) return;
+  const AnalyticValues tied = c.info->isotropic(c.info->examples[c.example]);
+  AnalyticValues free;
+  std::size_t next = 0;
+  for (const AnalyticParameter& parameter : c.info->parameters) {
+    const std::size_t count = parameter.per_channel ? 3 : 1;
+    if (parameter.isotropic_as.empty()) free.insert(free.end(), &tied[next], &tied[next] + count);
+    next += count;
+  }
+  const BrdfPtr model = c.info->make(tied), form = analytic::find(c.info->isotropic_form).make(free);
+  Rng rng(test::seed_of_this_test());
+  for (int n = 0; n < 1000; ++n) {
+    const Vec3 wi = test::uniform_hemisphere(rng), wo = test::uniform_hemisphere(rng);
+    ASSERT_TRUE((model->eval(wo, wi) == form->eval(wo, wi)).all()) << wo.transpose() << " | " << wi.transpose();
+  }
+}
+
 TEST_P(AnalyticModel, ValuesPerChannelActOnTheirChannelAlone) {
   const Case& c = GetParam();
   AnalyticValues values = c.info->examples[c.example];

@@ -168,7 +168,9 @@ TEST(Contenders, AreEveryModelOnce) {
     EXPECT_FALSE(contender.title.empty() || contender.source.empty()) << contender.name();
     models.insert(contender.model);
   }
-  for (const AnalyticInfo& info : analytic::all()) EXPECT_TRUE(models.contains(info.name)) << info.name;
+  for (const AnalyticInfo& info : analytic::all()) {
+    EXPECT_EQ(models.contains(info.name), info.isotropic_form.empty()) << info.name;
+  }
   for (const BasisInfo& info : basis::all()) EXPECT_TRUE(models.contains(info.name)) << info.name;
   for (const char* name : {"refined-1024", "refined-4096", "paper", "nmf-1024", "ggx", "table"}) {
     EXPECT_TRUE(names.contains(name)) << name;
@@ -181,6 +183,8 @@ TEST(Contenders, AreFoundByName) {
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[1].name(), "nmf-4096");
   EXPECT_EQ(found[2].name(), "lambert");
+  const std::vector<std::string> left_out = {"ggx_anisotropic"};
+  EXPECT_EQ(find_contenders(left_out, kBudgets).size(), 1U) << "is fitted where it is asked for";
   const std::vector<std::string> unknown = {"shiny"};
   try {
     (void)find_contenders(unknown, kBudgets);
