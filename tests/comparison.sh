@@ -1,7 +1,7 @@
 #!/bin/sh
 # comparison.sh FOLDER [OUT]: models of every kind on the materials of a folder: measured ones (*.bsdf) and
 # reconstructions of MERL (*.binary). Writes docs/comparison.md and docs/images/models_*.png. Takes about three minutes
-# a material on two idle cores (fourteen took 72 on busy ones); goes on where it was interrupted if OUT is the same.
+# a material on two idle cores (fourteen took 72 minutes on busy ones); goes on where it was interrupted if OUT is the same.
 set -eu
 folder=$(cd "$1" && pwd)
 out=${2:-}
