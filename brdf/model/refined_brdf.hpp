@@ -48,6 +48,9 @@ class RefinedBrdf final : public Brdf {
   [[nodiscard]] const PackedCoefficients& coefficients() const { return packed_; }
   [[nodiscard]] const RefinedLayout& layout() const { return layout_; }
 
+  /// What evaluation reads.
+  [[nodiscard]] const RefinedTables& tables() const { return tables_; }
+
   /// Kendall's tau of a component's copula at theta_d [radians]; 0 where it has none.
   [[nodiscard]] double tau(int component, double theta_d) const;
 

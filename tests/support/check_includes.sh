@@ -26,8 +26,9 @@ allowed() {
     brdf/data) echo "$data" ;;
     brdf/model | brdf/analytic | brdf/basis) echo "$data|$1/.*" ;;
     brdf/sampling) echo "$data|$1/.*" ;;
+    brdf/code) echo "$data|brdf/(model|sampling|code)/.*" ;;
     brdf/render) echo "$render" ;;
-    brdf/study) echo "$render|brdf/study/.*" ;;
+    brdf/study) echo "$render|brdf/(code|study)/.*" ;;
     *) complain "$1: no rule says what it may include" >&2 ;;
   esac
 }

@@ -1,0 +1,80 @@
+#include "brdf/code/cpp_header.hpp"
+
+#include <regex>
+
+#include "brdf/code/number_text.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+/// The part of GLSL that the text of a model needs.
+constexpr const char* kPrelude = R"(struct vec2 {
+  double x, y;
+  constexpr vec2(double x_ = 0, double y_ = 0) : x(x_), y(y_) {}
+};
+struct vec3 {
+  double x, y, z;
+  constexpr vec3(double x_ = 0, double y_ = 0, double z_ = 0) : x(x_), y(y_), z(z_) {}
+};
+struct vec4 {
+  double x, y, z, w;
+  constexpr vec4(double x_ = 0, double y_ = 0, double z_ = 0, double w_ = 0) : x(x_), y(y_), z(z_), w(w_) {}
+};
+
+namespace detail {
+
+using std::abs;
+using std::exp;
+using std::sqrt;
+
+inline vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline vec3 operator-(vec3 a, vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline vec3& operator+=(vec3& a, vec3 b) { return a = a + b; }
+inline vec3 operator*(double a, vec3 b) { return {a * b.x, a * b.y, a * b.z}; }
+inline vec4 operator/(vec4 a, double b) { return {a.x / b, a.y / b, a.z / b, a.w / b}; }
+inline double dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(vec4 a, vec4 b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
+inline double min(double a, double b) { return b < a ? b : a; }
+inline double max(double a, double b) { return a < b ? b : a; }
+inline double clamp(double x, double low, double high) { return min(max(x, low), high); }
+inline double mix(double a, double b, double share) { return a + share * (b - a); }
+
+)";
+
+std::string values_text(const std::vector<float>& values) {
+  constexpr std::size_t kRow = 8;
+  std::string text = "inline constexpr std::array<float, " + std::to_string(values.size()) + "> sklar_values = {\n";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += number_text(values[i]) + (i % kRow + 1 < kRow ? "F," : "F,\n");
+  }
+  return text + "};\n\ninline double sklar_value(int i) { return double(sklar_values[std::size_t(i)]); }\n\n";
+}
+
+/// What the header gives to its users.
+constexpr const char* kCalls = R"(}  // namespace detail
+
+/// f_r in 1/sr, red green blue. wo, wi: unit, in the frame of the surface (z = normal), both pointing away from it; 0
+/// where either is not above the horizon.
+inline vec3 eval(vec3 wo, vec3 wi) { return detail::sklar_eval(wo, wi); }
+
+)";
+
+/// Text of GLSL as C++: numbers are double, functions inline.
+std::string as_cpp(const std::string& text) {
+  const std::string in_double = std::regex_replace(text, std::regex("\\bfloat\\b"), "double");
+  return std::regex_replace(in_double, std::regex("(^|\n)([a-z]\\w* sklar_\\w+\\([^;{]*\\{\n)"), "$1inline $2");
+}
+
+}  // namespace
+
+std::string to_cpp_header(const ModelCode& code, const std::string& name) {
+  const std::string space = "namespace " + cpp_namespace(name);
+  return "#pragma once\n\n#include <array>\n#include <cmath>\n\n" + space + " {\n\n" + kPrelude +
+         values_text(code.values) + as_cpp(code.text) + "\n" + kCalls + "}  // " + space + "\n";
+}
+
+std::string cpp_namespace(std::string name) {
+  return "sklar_" + std::regex_replace(name, std::regex("[^A-Za-z0-9_]"), "_");
+}
+
+}  // namespace sklar::brdf

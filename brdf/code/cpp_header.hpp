@@ -1,0 +1,17 @@
+#pragma once
+/// A fitted model as a C++ header.
+
+#include <string>
+
+#include "brdf/code/model_code.hpp"
+
+namespace sklar::brdf {
+
+/// A header of C++17 that needs <array> and <cmath> only, allocates nothing and keeps no state. In namespace
+/// cpp_namespace(name): the functions of the code without the prefix sklar_, and the types of their arguments.
+[[nodiscard]] std::string to_cpp_header(const ModelCode& code, const std::string& name);
+
+/// sklar_ and the name, with _ for what may not be in an identifier.
+[[nodiscard]] std::string cpp_namespace(std::string name);
+
+}  // namespace sklar::brdf

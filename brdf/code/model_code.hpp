@@ -1,0 +1,27 @@
+#pragma once
+/// A fitted model as shader text and the numbers that it reads.
+
+#include <string>
+#include <vector>
+
+#include "brdf/model/refined_brdf.hpp"
+
+namespace sklar::brdf {
+
+/// Functions in GLSL (1.30 and later, ES 3.00) without preprocessor lines, all names beginning with sklar_. What reads
+/// the numbers is left to the user, who puts a function
+///
+///     float sklar_value(int i);  // values[i], 0 <= i < values.size()
+///
+/// before the text: one that reads an array (see glsl.hpp) or a texture.
+struct ModelCode {
+  std::string text;
+  std::vector<float> values;
+};
+
+/// `vec3 sklar_eval(vec3 wo, vec3 wi)`: f_r in 1/sr, red green blue, as RefinedBrdf::eval; 0 where a direction is not
+/// above the horizon. Directions are unit, in the frame of the surface. Within a relative 1e-6 of RefinedBrdf::at where
+/// the functions compute in double, within 2e-5 in single precision, for directions exact in it.
+[[nodiscard]] ModelCode evaluation_code(const RefinedBrdf& model);
+
+}  // namespace sklar::brdf

@@ -1,0 +1,219 @@
+#include "brdf/code/model_code.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <regex>
+
+#include "brdf/code/cpp_header.hpp"
+#include "brdf/code/glsl.hpp"
+#include "brdf/model/coupling.hpp"
+#include "copula/error.hpp"
+#include "copula/random.hpp"
+#include "families/registry.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+// Relative, against RefinedBrdf::at.
+constexpr double kTables = 1e-6;  // of tables in single precision, all else in double
+constexpr double kSingle = 2e-5;  // of single precision throughout, the bound of RefinedBrdf::eval
+
+/// A model with coefficients drawn at random, each copula at tau of about 0.3.
+std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structure,
+                                                const std::vector<std::string>& names, std::uint64_t seed) {
+  std::vector<FamilyInfo> families;
+  for (const std::string& name : names) families.push_back(families::resolve(name));
+  const RefinedLayout layout(structure, coupled(families));
+  std::vector<double> x(static_cast<std::size_t>(layout.size()));
+  Rng rng(seed);
+  for (int k = 0; k < structure.components; ++k) {
+    const FamilyInfo& family = families[static_cast<std::size_t>(k)];
+    const double dependence = family.parameters.empty() ? 0 : Coupling(family).dependence(0.3);
+    for (const RefinedPart part : kRefinedParts) {
+      for (int i = 0; i < layout.count(k, part); ++i) {
+        const double at = part == RefinedPart::shape ? -4.0 * (i % structure.half) / structure.half : 0;
+        x[static_cast<std::size_t>(layout.first(k, part) + i)] =
+            (part == RefinedPart::coupling ? dependence : at) + (uniform(rng) - 0.5);
+      }
+    }
+  }
+  return std::make_shared<RefinedBrdf>(structure, families, pack(layout, 16, x));
+}
+
+/// Names of models and models: numbers of components, with and without copulas, on parts of the axes, all degrees.
+struct Named {
+  std::string name;
+  std::shared_ptr<const RefinedBrdf> model;
+};
+
+const std::vector<Named>& models() {
+  static const std::vector<Named> kModels = [] {
+    const RefinedStructure least{.components = 1,
+                                 .half = 4,
+                                 .difference = 4,
+                                 .colour_half = 4,
+                                 .colour_difference = 4,
+                                 .azimuth = 0,
+                                 .azimuth_difference = 4,
+                                 .coupling_difference = 4};
+    RefinedStructure three = least, part = least, most = {};
+    three.components = 3;
+    three.half = 12;
+    three.colour_half = 6;
+    three.azimuth = 3;
+    part.components = 2;
+    part.half_range = {8, 60};
+    part.difference_range = {3, 40};
+    part.azimuth = 1;
+    most.components = kMostComponents;
+    most.azimuth = kHighestDegree;
+    most.width = 0.5;
+    return std::vector<Named>{
+        {"least", random_model(least, {"independence"}, 1)},
+        {"coupled", random_model(three, {"independence", "clayton@90", "frank"}, 2)},
+        {"on a part", random_model(part, {"gumbel", "independence"}, 3)},
+        {"most", random_model(most, std::vector<std::string>(kMostComponents, "independence"), 4)},
+    };
+  }();
+  return kModels;
+}
+
+/// Unit directions exact in single precision, some below the horizon, with the normal, pairs at mirror directions and
+/// grazing ones.
+struct Pairs {
+  Directions wo, wi;
+};
+
+Vec3 in_single(const Vec3& w) {
+  return w.cast<float>().cast<double>();
+}
+
+Pairs pairs_of_directions() {
+  constexpr Eigen::Index kCount = 400;
+  Rng rng(5);
+  const auto direction = [&] {
+    const double z = 1.05 * uniform(rng) - 0.05, phi = 2 * std::numbers::pi * uniform(rng), r = std::sqrt(1 - z * z);
+    return Vec3(r * std::cos(phi), r * std::sin(phi), z);
+  };
+  Pairs pairs{Directions(kCount, 3), Directions(kCount, 3)};
+  for (Eigen::Index i = 0; i < kCount; ++i) {
+    const Vec3 wo = direction();
+    const Vec3 mirror = (Vec3(-wo.x(), -wo.y(), wo.z()) + 0.01 * static_cast<double>(i % 3) * direction()).normalized();
+    pairs.wo.row(i) = in_single(i == 0 ? Vec3(0, 0, 1) : wo);
+    pairs.wi.row(i) = in_single(i == 0 ? Vec3(0, 0, 1) : i % 2 == 0 ? mirror : direction());
+  }
+  return pairs;
+}
+
+/// Numbers that a program made of the models' headers gives for each pair: for each model those of eval.
+class ModelCode : public test::TemporaryFolder {
+ protected:
+  static constexpr Eigen::Index kNumbers = 3;
+
+  /// @param header of a model, changed.
+  template <class Header>
+  Eigen::ArrayXXd run(const Pairs& pairs, const Header& header) const {
+    std::string includes, calls;
+    for (std::size_t m = 0; m < models().size(); ++m) {
+      const std::string name = "m" + std::to_string(m);
+      std::ofstream(folder_ / (name + ".hpp")) << header(to_cpp_header(evaluation_code(*models()[m].model), name));
+      includes += "#include \"" + name + ".hpp\"\n";
+      calls += "call_" + name + "(x);\n";
+      includes += "void call_" + name + "(const double* x) {\n  using namespace " + cpp_namespace(name) + R"(;
+  using real = decltype(vec3::x);
+  const vec3 wo{real(x[0]), real(x[1]), real(x[2])}, wi{real(x[3]), real(x[4]), real(x[5])};
+  const vec3 f = eval(wo, wi);
+  const double out[] = {f.x, f.y, f.z};
+  std::fwrite(out, sizeof out, 1, stdout);
+}
+)";
+    }
+    std::ofstream(folder_ / "program.cpp") << "#include <cstdio>\n" + includes + "int main() {\n  double x[6];\n" +
+                                                  "  while (std::fread(x, sizeof x, 1, stdin) == 1) {\n" + calls +
+                                                  "}\n}\n";
+    Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> in(pairs.wo.rows(), 6),
+        out(pairs.wo.rows(), kNumbers * static_cast<Eigen::Index>(models().size()));
+    in << pairs.wo, pairs.wi;
+    const auto size = [](const auto& rows) { return static_cast<std::streamsize>(rows.size() * 8); };
+    std::ofstream(folder_ / "in", std::ios::binary).write(reinterpret_cast<const char*>(in.data()), size(in));
+    const std::string command = "cd '" + folder_.string() + "' && " SKLAR_CXX_COMPILER +
+                                " -std=c++17 -O1 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror program.cpp"
+                                " -o program && ./program < in > out";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    std::ifstream result(folder_ / "out", std::ios::binary);
+    result.read(reinterpret_cast<char*>(out.data()), size(out));
+    EXPECT_EQ(result.gcount(), size(out));
+    return out;
+  }
+
+  static void expect_evaluation(const Pairs& pairs, const Eigen::ArrayXXd& found, double tolerance) {
+    for (std::size_t m = 0; m < models().size(); ++m) {
+      const RefinedBrdf& model = *models()[m].model;
+      double worst = 0;
+      for (Eigen::Index i = 0; i < pairs.wo.rows(); ++i) {
+        const Vec3 wo = pairs.wo.row(i), wi = pairs.wi.row(i);
+        const Rgb value = found.row(i).segment<3>(static_cast<Eigen::Index>(m) * kNumbers);
+        if (!(wo.z() > 0 && wi.z() > 0)) {
+          EXPECT_TRUE((value == 0).all()) << models()[m].name;
+          continue;
+        }
+        const Rgb exact = model.at(coordinates(model.structure(), wo, wi));
+        const double error = ((value - exact) / exact).abs().maxCoeff();
+        EXPECT_LT(error, tolerance) << models()[m].name << ", pair " << i;
+        worst = std::max(worst, error);
+      }
+      RecordProperty(models()[m].name, to_text(worst));
+    }
+  }
+};
+
+/// A header that computes in single precision, as a shader does.
+std::string in_single_precision(const std::string& header) {
+  const std::string types = std::regex_replace(header, std::regex("\\bdouble\\b"), "float");
+  return std::regex_replace(types, std::regex("(\\d\\.\\d+(e-?\\d+)?|\\de-\\d+)(?![\\dFe.])"), "$1F");
+}
+
+TEST_F(ModelCode, EvaluatesAsTheModelInCpp) {
+  const Pairs pairs = pairs_of_directions();
+  expect_evaluation(pairs, run(pairs, [](const std::string& header) { return header; }), kTables);
+}
+
+TEST_F(ModelCode, EvaluatesAsTheModelInSinglePrecision) {
+  const Pairs pairs = pairs_of_directions();
+  expect_evaluation(pairs, run(pairs, in_single_precision), kSingle);
+}
+
+/// What glslangValidator says of a shader; empty where it has no objection.
+std::string objections(const std::filesystem::path& folder, const std::string& shader, const std::string& stage) {
+  const std::string file = (folder / ("shader." + stage)).string();
+  std::ofstream(file) << shader;
+  FILE* pipe = popen((std::string(SKLAR_GLSL_VALIDATOR) + " '" + file + "' 2>&1").c_str(), "r");
+  std::string output;
+  char buffer[256];
+  while (pipe && std::fgets(buffer, sizeof buffer, pipe)) output += buffer;
+  return pipe && pclose(pipe) == 0 ? "" : output;
+}
+
+TEST_F(ModelCode, IsGlslOfAllVersionsFrom130) {
+  if (std::string(SKLAR_GLSL_VALIDATOR).empty()) GTEST_SKIP() << "no glslangValidator";
+  const std::string precision = "precision highp float;\nprecision highp int;\n";
+  const std::string main = "\nin vec3 wo, wi;\nout vec3 value;\nvoid main() { value = sklar_eval(wo, wi); }\n";
+  for (const Named& named : models()) {
+    const std::string code = to_glsl(evaluation_code(*named.model), named.name);
+    EXPECT_EQ(objections(folder_, "#version 130\n" + code + main, "frag"), "");
+    EXPECT_EQ(objections(folder_, "#version 410\n" + code + main, "vert"), "");
+    EXPECT_EQ(objections(folder_, "#version 300 es\n" + precision + code + main, "frag"), "");
+  }
+  const std::string wrong = to_glsl({"vec3 sklar_eval(vec3 wo, vec3 wi) { return 1; }", {1}}, "wrong");
+  EXPECT_NE(objections(folder_, "#version 130\n" + wrong + main, "frag"), "");
+}
+
+}  // namespace
+}  // namespace sklar::brdf
