@@ -24,7 +24,9 @@ struct vec4 {
 namespace detail {
 
 using std::abs;
+using std::cos;
 using std::exp;
+using std::sin;
 using std::sqrt;
 
 inline vec3 operator+(vec3 a, vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -56,6 +58,15 @@ constexpr const char* kCalls = R"(}  // namespace detail
 /// f_r in 1/sr, red green blue. wo, wi: unit, in the frame of the surface (z = normal), both pointing away from it; 0
 /// where either is not above the horizon.
 inline vec3 eval(vec3 wo, vec3 wi) { return detail::sklar_eval(wo, wi); }
+
+/// Density of the draws of sample per solid angle of wi; 0 where either is not above the horizon.
+inline double pdf(vec3 wo, vec3 wi) { return detail::sklar_pdf(wo, wi); }
+
+/// wi, its pdf, and its weight f_r cos(theta_i) / pdf, red green blue.
+using Sample = detail::sklar_Sample;
+
+/// A draw of wi given wo. uniforms: in (0,1).
+inline Sample sample(vec3 wo, vec2 uniforms) { return detail::sklar_sample(wo, uniforms); }
 
 )";
 

@@ -8,7 +8,15 @@
 namespace sklar::brdf {
 
 /// A header of C++17 that needs <array> and <cmath> only, allocates nothing and keeps no state. In namespace
-/// cpp_namespace(name): the functions of the code without the prefix sklar_, and the types of their arguments.
+/// cpp_namespace(name):
+///
+///     struct vec2 { double x, y; };  struct vec3 { double x, y, z; };
+///     struct Sample { vec3 wi; double pdf; vec3 weight; };
+///     vec3 eval(vec3 wo, vec3 wi);
+///     double pdf(vec3 wo, vec3 wi);
+///     Sample sample(vec3 wo, vec2 uniforms);
+///
+/// @param code of sampling_code.
 [[nodiscard]] std::string to_cpp_header(const ModelCode& code, const std::string& name);
 
 /// sklar_ and the name, with _ for what may not be in an identifier.

@@ -1,7 +1,11 @@
 #include "brdf/code/model_code.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <numeric>
+#include <type_traits>
 
 #include "brdf/code/number_text.hpp"
 #include "brdf/model/coupling.hpp"
@@ -13,6 +17,9 @@ namespace {
 
 constexpr const char* kEvaluation =
 #include "brdf/code/evaluation.inc"
+    ;
+constexpr const char* kSampling =
+#include "brdf/code/sampling.inc"
     ;
 
 /// The numbers of a model in the order in which the text reads them: of each kind component by component, those with a
@@ -98,6 +105,34 @@ std::string structure_text(const RefinedStructure& s) {
          constant_text("difference_high", s.difference_range.high / kWhole);
 }
 
+// A node of a sampler as numbers.
+constexpr std::size_t kNodeSize = sizeof(SamplerNode) / sizeof(float);
+static_assert(std::is_trivially_copyable_v<SamplerNode> && sizeof(SamplerNode) % sizeof(float) == 0);
+
+std::string offset_text(const char* name, std::size_t bytes) {
+  return constant_text(name, static_cast<int>(bytes / sizeof(float)));
+}
+
+template <std::size_t Components, std::size_t Cells>
+std::string margin_text(const std::string& name, std::size_t bytes, const MarginTable<Components, Cells>&) {
+  using Table = MarginTable<Components, Cells>;
+  return offset_text(name.c_str(), bytes + offsetof(Table, density)) +
+         offset_text((name + "_cdf").c_str(), bytes + offsetof(Table, cdf)) +
+         constant_text(name + "_cells", static_cast<int>(Cells));
+}
+
+std::string node_text(const SamplerNode& node) {
+  return constant_text("of_half", static_cast<int>(kOfHalf.components)) +
+         constant_text("of_wi", static_cast<int>(kOfWi.components)) +
+         margin_text("half_polar", offsetof(SamplerNode, half_polar), node.half_polar) +
+         margin_text("half_azimuth", offsetof(SamplerNode, half_azimuth), node.half_azimuth) +
+         margin_text("wi_polar", offsetof(SamplerNode, wi_polar), node.wi_polar) +
+         margin_text("wi_azimuth", offsetof(SamplerNode, wi_azimuth), node.wi_azimuth) +
+         offset_text("shares", offsetof(SamplerNode, shares)) + offset_text("spread", offsetof(SamplerNode, spread)) +
+         constant_text("node_size", static_cast<int>(kNodeSize)) + constant_text("outgoing_nodes", kOutgoingNodes) +
+         constant_text("cosine_share", kSamplerCosineShare);
+}
+
 }  // namespace
 
 ModelCode evaluation_code(const RefinedBrdf& model) {
@@ -112,6 +147,20 @@ ModelCode evaluation_code(const RefinedBrdf& model) {
   table("powers", &Values::add_powers);
   table("copulas", &Values::add_copulas);
   return {text + "\n" + kEvaluation, values.take()};
+}
+
+ModelCode sampling_code(const RefinedBrdf& model, const ConditionalSampler& sampler) {
+  ModelCode code = evaluation_code(model);
+  const std::vector<SamplerNode>& nodes = sampler.tables().nodes;
+  const auto size = [&] { return static_cast<int>(code.values.size()); };
+  code.text += "\n" + node_text(nodes.front()) + constant_text("cosines", size());
+  code.values.insert(code.values.end(), kOutgoingCosines.begin(), kOutgoingCosines.end());
+  code.text += constant_text("tables", size()) + "\n" + kSampling;
+  for (const SamplerNode& node : nodes) {
+    const auto numbers = std::bit_cast<std::array<float, kNodeSize>>(node);
+    code.values.insert(code.values.end(), numbers.begin(), numbers.end());
+  }
+  return code;
 }
 
 }  // namespace sklar::brdf

@@ -21,9 +21,15 @@
 namespace sklar::brdf {
 namespace {
 
-// Relative, against RefinedBrdf::at.
-constexpr double kTables = 1e-6;  // of tables in single precision, all else in double
-constexpr double kSingle = 2e-5;  // of single precision throughout, the bound of RefinedBrdf::eval
+/// How far a text may be from the library: relative but for directions.
+struct Tolerance {
+  double eval;       ///< of RefinedBrdf::at
+  double pdf;        ///< of ConditionalSampler::pdf, which is exact to 1e-5
+  double direction;  ///< of ConditionalSampler::sample_direction
+  double weight;     ///< of f_r cos / pdf at what was drawn; RefinedBrdf::eval is exact to 2e-5
+};
+constexpr Tolerance kTables{.eval = 1e-6, .pdf = 1e-5, .direction = 1e-5, .weight = 3e-5};  // in double but for tables
+constexpr Tolerance kSingle{.eval = 2e-5, .pdf = 1e-4, .direction = 2e-5, .weight = 1e-4};
 
 /// A model with coefficients drawn at random, each copula at tau of about 0.3.
 std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structure,
@@ -38,7 +44,7 @@ std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structur
     const double dependence = family.parameters.empty() ? 0 : Coupling(family).dependence(0.3);
     for (const RefinedPart part : kRefinedParts) {
       for (int i = 0; i < layout.count(k, part); ++i) {
-        const double at = part == RefinedPart::shape ? -4.0 * (i % structure.half) / structure.half : 0;
+        const double at = part == RefinedPart::shape ? -12.0 * (i % structure.half) / structure.half : 0;
         x[static_cast<std::size_t>(layout.first(k, part) + i)] =
             (part == RefinedPart::coupling ? dependence : at) + (uniform(rng) - 0.5);
       }
@@ -49,8 +55,13 @@ std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structur
 
 /// Names of models and models: numbers of components, with and without copulas, on parts of the axes, all degrees.
 struct Named {
+  Named(std::string name_, std::shared_ptr<const RefinedBrdf> model_)
+      : name(std::move(name_)), model(std::move(model_)), sampler(*model) {}
+  [[nodiscard]] ModelCode code() const { return sampling_code(*model, sampler); }
+
   std::string name;
   std::shared_ptr<const RefinedBrdf> model;
+  ConditionalSampler sampler;
 };
 
 const std::vector<Named>& models() {
@@ -89,6 +100,7 @@ const std::vector<Named>& models() {
 /// grazing ones.
 struct Pairs {
   Directions wo, wi;
+  Eigen::ArrayX2d uniforms;
 };
 
 Vec3 in_single(const Vec3& w) {
@@ -102,20 +114,22 @@ Pairs pairs_of_directions() {
     const double z = 1.05 * uniform(rng) - 0.05, phi = 2 * std::numbers::pi * uniform(rng), r = std::sqrt(1 - z * z);
     return Vec3(r * std::cos(phi), r * std::sin(phi), z);
   };
-  Pairs pairs{Directions(kCount, 3), Directions(kCount, 3)};
+  Pairs pairs{Directions(kCount, 3), Directions(kCount, 3), Eigen::ArrayX2d(kCount, 2)};
   for (Eigen::Index i = 0; i < kCount; ++i) {
     const Vec3 wo = direction();
     const Vec3 mirror = (Vec3(-wo.x(), -wo.y(), wo.z()) + 0.01 * static_cast<double>(i % 3) * direction()).normalized();
     pairs.wo.row(i) = in_single(i == 0 ? Vec3(0, 0, 1) : wo);
+    pairs.uniforms.row(i) << static_cast<float>(uniform(rng)), static_cast<float>(uniform(rng));
     pairs.wi.row(i) = in_single(i == 0 ? Vec3(0, 0, 1) : i % 2 == 0 ? mirror : direction());
   }
   return pairs;
 }
 
-/// Numbers that a program made of the models' headers gives for each pair: for each model those of eval.
+/// Numbers that a program made of the models' headers gives for each pair: for each model those of eval, of
+/// pdf, and of sample.
 class ModelCode : public test::TemporaryFolder {
  protected:
-  static constexpr Eigen::Index kNumbers = 3;
+  static constexpr Eigen::Index kNumbers = 11;
 
   /// @param header of a model, changed.
   template <class Header>
@@ -123,24 +137,26 @@ class ModelCode : public test::TemporaryFolder {
     std::string includes, calls;
     for (std::size_t m = 0; m < models().size(); ++m) {
       const std::string name = "m" + std::to_string(m);
-      std::ofstream(folder_ / (name + ".hpp")) << header(to_cpp_header(evaluation_code(*models()[m].model), name));
+      std::ofstream(folder_ / (name + ".hpp")) << header(to_cpp_header(models()[m].code(), name));
       includes += "#include \"" + name + ".hpp\"\n";
       calls += "call_" + name + "(x);\n";
       includes += "void call_" + name + "(const double* x) {\n  using namespace " + cpp_namespace(name) + R"(;
   using real = decltype(vec3::x);
   const vec3 wo{real(x[0]), real(x[1]), real(x[2])}, wi{real(x[3]), real(x[4]), real(x[5])};
   const vec3 f = eval(wo, wi);
-  const double out[] = {f.x, f.y, f.z};
+  const Sample s = sample(wo, {real(x[6]), real(x[7])});
+  const double out[] = {f.x,     f.y,   f.z,        pdf(wo, wi), s.wi.x,    s.wi.y,
+                        s.wi.z, s.pdf, s.weight.x, s.weight.y,  s.weight.z};
   std::fwrite(out, sizeof out, 1, stdout);
 }
 )";
     }
-    std::ofstream(folder_ / "program.cpp") << "#include <cstdio>\n" + includes + "int main() {\n  double x[6];\n" +
+    std::ofstream(folder_ / "program.cpp") << "#include <cstdio>\n" + includes + "int main() {\n  double x[8];\n" +
                                                   "  while (std::fread(x, sizeof x, 1, stdin) == 1) {\n" + calls +
                                                   "}\n}\n";
-    Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> in(pairs.wo.rows(), 6),
+    Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> in(pairs.wo.rows(), 8),
         out(pairs.wo.rows(), kNumbers * static_cast<Eigen::Index>(models().size()));
-    in << pairs.wo, pairs.wi;
+    in << pairs.wo, pairs.wi, pairs.uniforms;
     const auto size = [](const auto& rows) { return static_cast<std::streamsize>(rows.size() * 8); };
     std::ofstream(folder_ / "in", std::ios::binary).write(reinterpret_cast<const char*>(in.data()), size(in));
     const std::string command = "cd '" + folder_.string() + "' && " SKLAR_CXX_COMPILER +
@@ -153,24 +169,45 @@ class ModelCode : public test::TemporaryFolder {
     return out;
   }
 
-  static void expect_evaluation(const Pairs& pairs, const Eigen::ArrayXXd& found, double tolerance) {
+  static void expect_as_the_library(const Pairs& pairs, const Eigen::ArrayXXd& found, const Tolerance& tolerance) {
     for (std::size_t m = 0; m < models().size(); ++m) {
-      const RefinedBrdf& model = *models()[m].model;
-      double worst = 0;
+      const Named& named = models()[m];
+      SCOPED_TRACE(named.name);
+      Tolerance worst{};
       for (Eigen::Index i = 0; i < pairs.wo.rows(); ++i) {
-        const Vec3 wo = pairs.wo.row(i), wi = pairs.wi.row(i);
-        const Rgb value = found.row(i).segment<3>(static_cast<Eigen::Index>(m) * kNumbers);
-        if (!(wo.z() > 0 && wi.z() > 0)) {
-          EXPECT_TRUE((value == 0).all()) << models()[m].name;
-          continue;
-        }
-        const Rgb exact = model.at(coordinates(model.structure(), wo, wi));
-        const double error = ((value - exact) / exact).abs().maxCoeff();
-        EXPECT_LT(error, tolerance) << models()[m].name << ", pair " << i;
-        worst = std::max(worst, error);
+        const Tolerance error = errors(named, pairs.wo.row(i), pairs.wi.row(i), pairs.uniforms.row(i),
+                                       found.row(i).segment<kNumbers>(static_cast<Eigen::Index>(m) * kNumbers));
+        worst = {.eval = std::max(worst.eval, error.eval),
+                 .pdf = std::max(worst.pdf, error.pdf),
+                 .direction = std::max(worst.direction, error.direction),
+                 .weight = std::max(worst.weight, error.weight)};
       }
-      RecordProperty(models()[m].name, to_text(worst));
+      EXPECT_LT(worst.eval, tolerance.eval);
+      EXPECT_LT(worst.pdf, tolerance.pdf);
+      EXPECT_LT(worst.direction, tolerance.direction);
+      EXPECT_LT(worst.weight, tolerance.weight);
     }
+  }
+
+ private:
+  static double relative(double value, double exact) {
+    return std::isfinite(value) ? std::abs(value - exact) / (exact > 0 ? exact : 1) : HUGE_VAL;
+  }
+  static double relative(const Rgb& value, const Rgb& exact) {
+    return std::max({relative(value(0), exact(0)), relative(value(1), exact(1)), relative(value(2), exact(2))});
+  }
+
+  static Tolerance errors(const Named& named, const Vec3& wo, const Vec3& wi, const Vec2& uniforms,
+                          const Eigen::Array<double, 1, kNumbers>& row) {
+    const RefinedBrdf& model = *named.model;
+    const bool above = wo.z() > 0 && wi.z() > 0;
+    const Vec3 drawn(row(4), row(5), row(6));
+    const double pdf = named.sampler.pdf(wo, drawn);
+    const Rgb weight = pdf > 0 ? Rgb(model.eval(wo, drawn) * (drawn.z() / pdf)) : Rgb::Zero();
+    return {.eval = relative(row.segment<3>(0), above ? model.at(coordinates(model.structure(), wo, wi)) : Rgb::Zero()),
+            .pdf = std::max(relative(row(3), named.sampler.pdf(wo, wi)), relative(row(7), pdf)),
+            .direction = relative((drawn - named.sampler.sample_direction(wo, uniforms)).norm(), 0),
+            .weight = relative(row.segment<3>(8), weight)};
   }
 };
 
@@ -180,14 +217,14 @@ std::string in_single_precision(const std::string& header) {
   return std::regex_replace(types, std::regex("(\\d\\.\\d+(e-?\\d+)?|\\de-\\d+)(?![\\dFe.])"), "$1F");
 }
 
-TEST_F(ModelCode, EvaluatesAsTheModelInCpp) {
+TEST_F(ModelCode, IsTheModelAndItsSamplerInCpp) {
   const Pairs pairs = pairs_of_directions();
-  expect_evaluation(pairs, run(pairs, [](const std::string& header) { return header; }), kTables);
+  expect_as_the_library(pairs, run(pairs, [](const std::string& header) { return header; }), kTables);
 }
 
-TEST_F(ModelCode, EvaluatesAsTheModelInSinglePrecision) {
+TEST_F(ModelCode, IsTheModelAndItsSamplerInSinglePrecision) {
   const Pairs pairs = pairs_of_directions();
-  expect_evaluation(pairs, run(pairs, in_single_precision), kSingle);
+  expect_as_the_library(pairs, run(pairs, in_single_precision), kSingle);
 }
 
 /// What glslangValidator says of a shader; empty where it has no objection.
@@ -204,9 +241,11 @@ std::string objections(const std::filesystem::path& folder, const std::string& s
 TEST_F(ModelCode, IsGlslOfAllVersionsFrom130) {
   if (std::string(SKLAR_GLSL_VALIDATOR).empty()) GTEST_SKIP() << "no glslangValidator";
   const std::string precision = "precision highp float;\nprecision highp int;\n";
-  const std::string main = "\nin vec3 wo, wi;\nout vec3 value;\nvoid main() { value = sklar_eval(wo, wi); }\n";
+  const std::string main =
+      "\nin vec3 wo, wi;\nout vec3 value;\nvoid main() {\n"
+      "  sklar_Sample s = sklar_sample(wo, wi.xy);\n  value = sklar_eval(wo, wi) + sklar_pdf(wo, wi) * s.weight;\n}\n";
   for (const Named& named : models()) {
-    const std::string code = to_glsl(evaluation_code(*named.model), named.name);
+    const std::string code = to_glsl(named.code(), named.name);
     EXPECT_EQ(objections(folder_, "#version 130\n" + code + main, "frag"), "");
     EXPECT_EQ(objections(folder_, "#version 410\n" + code + main, "vert"), "");
     EXPECT_EQ(objections(folder_, "#version 300 es\n" + precision + code + main, "frag"), "");
