@@ -2,7 +2,7 @@
 
 #include <regex>
 
-#include "brdf/code/number_text.hpp"
+#include "brdf/code/source_text.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -78,14 +78,14 @@ std::string as_cpp(const std::string& text) {
 
 }  // namespace
 
-std::string to_cpp_header(const ModelCode& code, const std::string& name) {
-  const std::string space = "namespace " + cpp_namespace(name);
-  return "#pragma once\n\n#include <array>\n#include <cmath>\n\n" + space + " {\n\n" + kPrelude +
-         values_text(code.values) + as_cpp(code.text) + "\n" + kCalls + "}  // " + space + "\n";
+std::string to_cpp_header(const ModelCode& code, const std::string& material) {
+  const std::string space = "namespace " + cpp_namespace(material);
+  return "// " + origin_text(material) + "#pragma once\n\n#include <array>\n#include <cmath>\n\n" + space + " {\n\n" +
+         kPrelude + values_text(code.values) + as_cpp(code.text) + "\n" + kCalls + "}  // " + space + "\n";
 }
 
-std::string cpp_namespace(std::string name) {
-  return "sklar_" + std::regex_replace(name, std::regex("[^A-Za-z0-9_]"), "_");
+std::string cpp_namespace(const std::string& material) {
+  return "sklar_" + std::regex_replace(material, std::regex("[^A-Za-z0-9_]"), "_");
 }
 
 }  // namespace sklar::brdf

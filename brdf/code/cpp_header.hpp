@@ -8,7 +8,7 @@
 namespace sklar::brdf {
 
 /// A header of C++17 that needs <array> and <cmath> only, allocates nothing and keeps no state. In namespace
-/// cpp_namespace(name):
+/// cpp_namespace(material):
 ///
 ///     struct vec2 { double x, y; };  struct vec3 { double x, y, z; };
 ///     struct Sample { vec3 wi; double pdf; vec3 weight; };
@@ -17,9 +17,9 @@ namespace sklar::brdf {
 ///     Sample sample(vec3 wo, vec2 uniforms);
 ///
 /// @param code of sampling_code.
-[[nodiscard]] std::string to_cpp_header(const ModelCode& code, const std::string& name);
+[[nodiscard]] std::string to_cpp_header(const ModelCode& code, const std::string& material);
 
-/// sklar_ and the name, with _ for what may not be in an identifier.
-[[nodiscard]] std::string cpp_namespace(std::string name);
+/// sklar_ and the material, with _ for what may not be in an identifier.
+[[nodiscard]] std::string cpp_namespace(const std::string& material);
 
 }  // namespace sklar::brdf

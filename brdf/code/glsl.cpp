@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "brdf/code/number_text.hpp"
+#include "brdf/code/source_text.hpp"
 
 namespace sklar::brdf {
 
@@ -21,8 +21,20 @@ std::string glsl_values(const std::vector<float>& values) {
   return text + "\nfloat sklar_value(int i) {\n  return sklar_values[i / 4][i - 4 * (i / 4)];\n}\n\n";
 }
 
-std::string to_glsl(const ModelCode& code, const std::string& title) {
-  return "// " + title + "\n\n" + glsl_values(code.values) + code.text;
+std::string to_glsl(const ModelCode& code, const std::string& material) {
+  return "// " + origin_text(material) + "\n" + glsl_values(code.values) + code.text;
+}
+
+// In a .brdf file a line that begins with # is a comment, in the shader too.
+std::string to_brdf_explorer(const ModelCode& code, const std::string& material) {
+  return "analytic\n\n# " + origin_text(material) + "\n::begin parameters\n::end parameters\n\n::begin shader\n\n" +
+         glsl_values(code.values) + code.text + R"(
+vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) {
+  return sklar_eval(vec3(dot(V, X), dot(V, Y), dot(V, N)), vec3(dot(L, X), dot(L, Y), dot(L, N)));
+}
+
+::end shader
+)";
 }
 
 }  // namespace sklar::brdf

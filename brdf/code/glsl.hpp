@@ -1,5 +1,5 @@
 #pragma once
-/// A fitted model as a piece of a GLSL shader.
+/// A fitted model as a piece of a GLSL shader, and as one that BRDF Explorer loads.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,10 @@ namespace sklar::brdf {
 [[nodiscard]] std::string glsl_values(const std::vector<float>& values);
 
 /// Values and functions, to be put into a fragment, vertex or compute shader after its #version line; in GLSL ES with
-/// `precision highp float; precision highp int;`. @param title of one line, goes into a comment.
-[[nodiscard]] std::string to_glsl(const ModelCode& code, const std::string& title);
+/// `precision highp float; precision highp int;`. @param material named in a comment.
+[[nodiscard]] std::string to_glsl(const ModelCode& code, const std::string& material);
+
+/// A `.brdf` file of BRDF Explorer, without parameters. @param code of evaluation_code.
+[[nodiscard]] std::string to_brdf_explorer(const ModelCode& code, const std::string& material);
 
 }  // namespace sklar::brdf

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <type_traits>
 
-#include "brdf/code/number_text.hpp"
+#include "brdf/code/source_text.hpp"
 #include "brdf/model/coupling.hpp"
 #include "brdf/model/lattice.hpp"
 #include "brdf/model/spline.hpp"

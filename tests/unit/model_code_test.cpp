@@ -9,9 +9,11 @@
 #include <fstream>
 #include <numbers>
 #include <regex>
+#include <sstream>
 
 #include "brdf/code/cpp_header.hpp"
 #include "brdf/code/glsl.hpp"
+#include "brdf/code/source_text.hpp"
 #include "brdf/model/coupling.hpp"
 #include "copula/error.hpp"
 #include "copula/random.hpp"
@@ -252,6 +254,56 @@ TEST_F(ModelCode, IsGlslOfAllVersionsFrom130) {
   }
   const std::string wrong = to_glsl({"vec3 sklar_eval(vec3 wo, vec3 wi) { return 1; }", {1}}, "wrong");
   EXPECT_NE(objections(folder_, "#version 130\n" + wrong + main, "frag"), "");
+}
+
+/// The shader of a .brdf file as BRDF Explorer reads it: lines that are blank or begin with # are left out.
+std::string shader_of(const std::string& file) {
+  std::istringstream lines(file);
+  std::string line, section, shader;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "analytic");
+  while (std::getline(lines, line)) {
+    if (line.empty() || line.front() == '#') continue;
+    if (line.starts_with("::")) {
+      const bool begins = line.starts_with("::begin ");
+      EXPECT_EQ(section.empty(), begins);
+      EXPECT_TRUE(begins || line == "::end " + section) << line;
+      section = begins ? line.substr(8) : "";
+    } else if (section == "shader") {
+      shader += line + "\n";
+    } else {
+      ADD_FAILURE() << "outside of the shader: " << line;
+    }
+  }
+  EXPECT_EQ(section, "");
+  return shader;
+}
+
+// The versions of its templates, in both stages in which it evaluates.
+TEST_F(ModelCode, IsAShaderOfBrdfExplorer) {
+  if (std::string(SKLAR_GLSL_VALIDATOR).empty()) GTEST_SKIP() << "no glslangValidator";
+  const std::string main =
+      "in vec3 a, b;\nout vec3 value;\nvoid main() { value = BRDF(a, b, vec3(0,0,1), vec3(1,0,0), vec3(0,1,0)); }\n";
+  for (const Named& named : models()) {
+    const std::string shader = shader_of(to_brdf_explorer(evaluation_code(*named.model), "line\n::end shader"));
+    EXPECT_NE(shader.find("vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)"), std::string::npos);
+    EXPECT_EQ(objections(folder_, "#version 410\n" + shader + main, "vert"), "");
+    EXPECT_EQ(objections(folder_, "#version 130\n" + shader + main, "frag"), "");
+  }
+}
+
+TEST(SourceText, NumbersReadBackAndAreNotIntegers) {
+  EXPECT_EQ(number_text(1.0F), "1.0");
+  EXPECT_EQ(number_text(-80.0), "-80.0");
+  EXPECT_EQ(number_text(1e-20F), "1e-20");
+  EXPECT_EQ(constant_text("one", 1), "const int sklar_one = 1;\n");
+  EXPECT_EQ(constant_text("width", 0.05), "const float sklar_width = 0.05;\n");
+  Rng rng(6);
+  for (int i = 0; i < 1000; ++i) {
+    const auto value = static_cast<float>(std::exp(40 * (uniform(rng) - 0.5)));
+    EXPECT_EQ(std::stof(number_text(value)), value);
+  }
+  EXPECT_EQ(cpp_namespace("alum-bronze 2"), "sklar_alum_bronze_2");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as text of GLSL and C++.
+/// Numbers and names as text of GLSL and C++.
 
 #include <string>
 #include <string_view>
@@ -13,5 +13,9 @@ namespace sklar::brdf {
 /// A line that defines a constant: `const int sklar_NAME = VALUE;`, or a float.
 [[nodiscard]] std::string constant_text(std::string_view name, int value);
 [[nodiscard]] std::string constant_text(std::string_view name, double value);
+
+/// A line without its comment sign that says what a source was made from. @param material any text; what could end the
+/// comment becomes a blank.
+[[nodiscard]] std::string origin_text(std::string_view material);
 
 }  // namespace sklar::brdf

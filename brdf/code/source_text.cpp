@@ -1,6 +1,7 @@
-#include "brdf/code/number_text.hpp"
+#include "brdf/code/source_text.hpp"
 
 #include <array>
+#include <cctype>
 #include <charconv>
 
 namespace sklar::brdf {
@@ -33,6 +34,14 @@ std::string constant_text(std::string_view name, int value) {
 
 std::string constant_text(std::string_view name, double value) {
   return line("float", name, number_text(value));
+}
+
+std::string origin_text(std::string_view material) {
+  std::string name(material);
+  for (char& letter : name) {
+    if (std::iscntrl(static_cast<unsigned char>(letter)) != 0 || letter == '\\') letter = ' ';
+  }
+  return "sklar: a refined reflectance model of " + name + ".\n";
 }
 
 }  // namespace sklar::brdf
