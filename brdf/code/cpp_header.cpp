@@ -36,8 +36,8 @@ inline vec3 operator*(double a, vec3 b) { return {a * b.x, a * b.y, a * b.z}; }
 inline vec4 operator/(vec4 a, double b) { return {a.x / b, a.y / b, a.z / b, a.w / b}; }
 inline double dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double dot(vec4 a, vec4 b) { return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w; }
-inline double min(double a, double b) { return b < a ? b : a; }
-inline double max(double a, double b) { return a < b ? b : a; }
+inline double min(double a, double b) { return a < b ? a : b; }
+inline double max(double a, double b) { return a > b ? a : b; }  // b where a is NaN: no index is made of one
 inline double clamp(double x, double low, double high) { return min(max(x, low), high); }
 inline double mix(double a, double b, double share) { return a + share * (b - a); }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <numeric>
+#include <string_view>
 #include <type_traits>
 
 #include "brdf/code/source_text.hpp"
@@ -39,7 +40,12 @@ class Values {
   [[nodiscard]] int size() const { return static_cast<int>(values_.size()); }
   [[nodiscard]] std::vector<float> take() { return std::move(values_); }
 
-  void add_shape() { add_tables(model_.tables().shape, model_.structure().half * model_.structure().difference); }
+  void add_shape() {
+    const int count = model_.structure().half * model_.structure().difference;
+    for (const int k : order_) {
+      for (int i = 0; i < count; ++i) add(model_.tables().shape, i, k);
+    }
+  }
 
   /// The coefficients along half of the logs of both colours at the nodes of difference.
   void add_colours() {
@@ -81,11 +87,6 @@ class Values {
   void add(const AlignedFloats& table, int index, int component) {
     values_.push_back(table[static_cast<std::size_t>(index * kMostComponents + component)]);
   }
-  void add_tables(const AlignedFloats& table, int count) {
-    for (const int k : order_) {
-      for (int i = 0; i < count; ++i) add(table, i, k);
-    }
-  }
 
   const RefinedBrdf& model_;
   std::vector<int> order_;
@@ -109,15 +110,15 @@ std::string structure_text(const RefinedStructure& s) {
 constexpr std::size_t kNodeSize = sizeof(SamplerNode) / sizeof(float);
 static_assert(std::is_trivially_copyable_v<SamplerNode> && sizeof(SamplerNode) % sizeof(float) == 0);
 
-std::string offset_text(const char* name, std::size_t bytes) {
+std::string offset_text(std::string_view name, std::size_t bytes) {
   return constant_text(name, static_cast<int>(bytes / sizeof(float)));
 }
 
 template <std::size_t Components, std::size_t Cells>
 std::string margin_text(const std::string& name, std::size_t bytes, const MarginTable<Components, Cells>&) {
   using Table = MarginTable<Components, Cells>;
-  return offset_text(name.c_str(), bytes + offsetof(Table, density)) +
-         offset_text((name + "_cdf").c_str(), bytes + offsetof(Table, cdf)) +
+  return offset_text(name, bytes + offsetof(Table, density)) +
+         offset_text(name + "_cdf", bytes + offsetof(Table, cdf)) +
          constant_text(name + "_cells", static_cast<int>(Cells));
 }
 
