@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -215,6 +216,28 @@ TEST_F(BrdfCommand, FitWritesAModelThatTheOthersRead) {
   const Table model = parse_csv(run("brdf eval model.json --directions in.csv").out, "model");
   const Table material = parse_csv(run("brdf eval --directions in.csv").out, "material");
   EXPECT_NEAR(model.values(0, 1) / material.values(0, 1), 1, 0.1);
+}
+
+TEST_F(BrdfCommand, ConvertWritesAModelAsSource) {
+  ASSERT_EQ(run("brdf fit --family independence --max-bytes 600 --evaluations 20 -o model.json").status, 0);
+  const std::map<std::string, std::string> parts = {{"model.glsl", "sklar_Sample sklar_sample(vec3 wo, vec2 uniforms)"},
+                                                    {"model.hpp", "namespace sklar_synthetic {"},
+                                                    {"model.brdf", "::begin shader"}};
+  for (const auto& [file, part] : parts) {
+    const Result result = run("brdf convert model.json " + file);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_NE(read(file).find(part), std::string::npos) << file;
+  }
+  ASSERT_EQ(run("brdf fit --mode paper --slices 1 --method tau --family independence -o paper.json").status, 0);
+  expect_refused("brdf convert paper.json paper.glsl", "paper.json: written as source are refined models");
+  expect_refused("brdf convert material.binary material.glsl", "material.binary: written as source are models");
+  auto bright = nlohmann::json::parse(read("model.json"));
+  bright["lowest"][0] = bright["lowest"][0].get<double>() + 1;  // of the log of f_r
+  write("bright.json", bright.dump());
+  const Result limited = run("brdf convert bright.json bright.brdf");
+  EXPECT_EQ(limited.status, 0);
+  EXPECT_TRUE(limited.err.starts_with("note: bright.json has a directional albedo of 1.")) << limited.err;
 }
 
 TEST_F(BrdfCommand, FitChoosesTheModelByTheBudget) {
