@@ -23,6 +23,11 @@ constexpr const char* kSampling =
 #include "brdf/code/sampling.inc"
     ;
 
+/// Coefficients of the colours along half in the text, where a constant is a spline of equal ones.
+int colour_rows(const RefinedStructure& structure) {
+  return std::max(structure.colour_half, kSplineOrder);
+}
+
 /// The numbers of a model in the order in which the text reads them: of each kind component by component, those with a
 /// copula first.
 class Values {
@@ -55,7 +60,9 @@ class Values {
         spline_basis(Eigen::ArrayXd::LinSpaced(Lattice::difference, 0, 1), s.colour_difference).transpose();
     const auto at_nodes = [&](int k, RefinedPart part) -> Eigen::MatrixXd {
       const double* first = all.data() + model_.layout().first(k, part);
-      return Eigen::Map<const Eigen::MatrixXd>(first, s.colour_half, s.colour_difference) * along;
+      const Eigen::MatrixXd nodes =
+          Eigen::Map<const Eigen::MatrixXd>(first, s.colour_half, s.colour_difference) * along;
+      return nodes.replicate(colour_rows(s) / s.colour_half, 1);
     };
     for (const int k : order_) {
       const Eigen::MatrixXd red = at_nodes(k, RefinedPart::red), blue = at_nodes(k, RefinedPart::blue);
@@ -97,7 +104,7 @@ class Values {
 std::string structure_text(const RefinedStructure& s) {
   constexpr double kWhole = AxisRange::kWhole;
   return constant_text("components", s.components) + constant_text("half", s.half) +
-         constant_text("difference", s.difference) + constant_text("colour_half", s.colour_half) +
+         constant_text("difference", s.difference) + constant_text("colour_half", colour_rows(s)) +
          constant_text("degree", s.azimuth) + constant_text("half_nodes", Lattice::half) +
          constant_text("azimuth_nodes", Lattice::azimuth) + constant_text("difference_nodes", Lattice::difference) +
          constant_text("width", s.width) + constant_text("pole", kPole) +

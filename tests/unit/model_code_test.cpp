@@ -85,6 +85,8 @@ const std::vector<Named>& models() {
     part.half_range = {8, 60};
     part.difference_range = {3, 40};
     part.azimuth = 1;
+    part.colour_half = 1;
+    part.colour_difference = 1;
     most.components = kMostComponents;
     most.azimuth = kHighestDegree;
     most.width = 0.5;
