@@ -1,5 +1,7 @@
 #include "brdf/data/bilinear.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace sklar::brdf {
@@ -78,6 +80,46 @@ Vec2 BilinearWarp::invert(const Vec2& position, const ImageBlend& image) const {
   const double high = mixed(row_mass_, image, y.high, columns_ - 1);
   const double below = mix(image, mass) + y.share * (low + 0.5 * y.share * (high - low));
   return {whole > 0 ? part / whole : position.x(), below};
+}
+
+namespace {
+
+/// The interval of a growing table that holds the value; table(n) for n in [0, nodes).
+template <class Table>
+int interval(int nodes, double value, const Table& table) {
+  int low = 0, high = nodes - 1;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (table(middle) <= value ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Where the integral of a density that goes from `left` to `right` over a unit interval is `mass`.
+double within(double left, double right, double mass) {
+  const double root = std::sqrt(std::max(left * left + 2 * (right - left) * mass, 0.0));
+  return left + root > 0 ? std::min(2 * mass / (left + root), 1.0) : 0.0;
+}
+
+}  // namespace
+
+Vec2 BilinearWarp::sample(const Vec2& s, int image) const {
+  const std::size_t first = static_cast<std::size_t>(image) * rows_;
+  const auto mass = [&](int row) { return mass_[first + static_cast<std::size_t>(row)]; };
+  const auto at = [&](const std::vector<double>& table, int row, int column) {
+    return table[(first + static_cast<std::size_t>(row)) * columns_ + column];
+  };
+  const int row = interval(rows_, s.y(), mass);
+  const double y =
+      within(at(row_mass_, row, columns_ - 1), at(row_mass_, row + 1, columns_ - 1), std::max(s.y() - mass(row), 0.0));
+  const auto over_rows = [&](const std::vector<double>& table, int column) {
+    return mix(at(table, row, column), at(table, row + 1, column), y);
+  };
+  const auto along = [&](int column) { return over_rows(row_mass_, column); };
+  const double part = s.x() * along(columns_ - 1);
+  const int column = interval(columns_, part, along);
+  const double x = within(over_rows(density_, column), over_rows(density_, column + 1), part - along(column));
+  return {(column + x) / (columns_ - 1), (row + y) / (rows_ - 1)};
 }
 
 }  // namespace sklar::brdf

@@ -39,6 +39,9 @@ class BilinearWarp {
   /// is position.x.
   [[nodiscard]] Vec2 invert(const Vec2& position, const ImageBlend& image) const;
 
+  /// The point of one image that invert takes to s. @param s in the unit square.
+  [[nodiscard]] Vec2 sample(const Vec2& s, int image) const;
+
   [[nodiscard]] std::size_t bytes() const {
     return (density_.size() + row_mass_.size() + mass_.size()) * sizeof(double);
   }

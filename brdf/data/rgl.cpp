@@ -7,10 +7,21 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/data/colour.hpp"
 #include "brdf/geometry/frame.hpp"
 #include "copula/error.hpp"
 
 namespace sklar::brdf {
+
+/// Slices of a field of shape (P, T, extra..., rows, columns): those of every phi_i, or the first one's if isotropic.
+struct RglSlices {
+  int images, rows, columns;
+  FloatTensor tensor;
+  [[nodiscard]] std::span<const float> values() const {
+    return std::span(tensor.values).first(static_cast<std::size_t>(images) * rows * columns);
+  }
+};
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -46,16 +57,8 @@ BilinearStack read_profile(const TensorFile& file, const std::string& name, bool
   return {1, static_cast<int>(tensor.shape[0]), static_cast<int>(tensor.shape[1]), tensor.values};
 }
 
-/// Slices of a field of shape (P, T, extra..., rows, columns): those of every phi_i, or the first one's if isotropic.
-struct Slices {
-  int images, rows, columns;
-  FloatTensor tensor;
-  [[nodiscard]] std::span<const float> values() const {
-    return std::span(tensor.values).first(static_cast<std::size_t>(images) * rows * columns);
-  }
-};
-
-Slices read_slices(const TensorFile& file, const std::string& name, bool isotropic, std::vector<std::size_t> leading) {
+RglSlices read_slices(const TensorFile& file, const std::string& name, bool isotropic,
+                      std::vector<std::size_t> leading) {
   FloatTensor tensor = file.floats(name, leading.size() + 2);
   const std::size_t rows = tensor.shape[leading.size()];
   const std::size_t columns = tensor.shape[leading.size() + 1];
@@ -99,9 +102,6 @@ int read_folds(const TensorFile& file, const std::vector<double>& phi_i) {
 
 /// In [0,pi/2].
 std::vector<double> read_theta_i(const TensorFile& file) {
-  if (!file.has("rgb") && file.has("wavelengths")) {
-    file.fail("holds spectra and no field 'rgb'; only RGB files are read");
-  }
   constexpr const char* kWithin = " within [0, pi/2]";
   std::vector<double> theta_i = read_ascending(file, "theta_i", kWithin);
   if (theta_i.front() < 0 || theta_i.back() > kPi / 2 + kFloatRounding) {
@@ -110,13 +110,41 @@ std::vector<double> read_theta_i(const TensorFile& file) {
   return theta_i;
 }
 
-BilinearStack read_rgb(const TensorFile& file, bool isotropic, std::size_t slices) {
-  const Slices rgb = read_slices(file, "rgb", isotropic, {file.floats("phi_i", 1).shape[0], slices, 3});
-  return {rgb.images, rgb.rows, rgb.columns, rgb.values()};
+std::vector<double> read_wavelengths(const TensorFile& file) {
+  std::vector<double> wavelengths = read_ascending(file, "wavelengths", "");
+  if (wavelengths.size() < 2) file.fail("field 'wavelengths' holds one value, expected 2 or more");
+  return wavelengths;
+}
+
+/// `rgb`, or where a file has none the colours of `spectra`.
+RglSlices read_rgb(const TensorFile& file) {
+  const std::size_t azimuths = file.floats("phi_i", 1).shape[0];
+  const std::size_t slices = file.floats("theta_i", 1).shape[0];
+  const bool isotropic = azimuths <= 2;
+  if (file.has("rgb") || !file.has("wavelengths")) return read_slices(file, "rgb", isotropic, {azimuths, slices, 3});
+  const std::vector<Rgb> weights = rgb_weights(read_wavelengths(file));
+  RglSlices spectra = read_slices(file, "spectra", isotropic, {azimuths, slices, weights.size()});
+  const std::size_t nodes = static_cast<std::size_t>(spectra.rows) * static_cast<std::size_t>(spectra.columns);
+  const std::size_t directions = spectra.values().size() / (nodes * weights.size());
+  std::vector<float> rgb;
+  rgb.reserve(3 * directions * nodes);
+  for (std::size_t slice = 0; slice < directions; ++slice) {
+    const std::size_t first = slice * weights.size() * nodes;
+    for (int channel = 0; channel < 3; ++channel) {
+      for (std::size_t node = 0; node < nodes; ++node) {
+        double sum = 0;
+        for (std::size_t n = 0; n < weights.size(); ++n) {
+          sum += weights[n][channel] * static_cast<double>(spectra.tensor.values[first + n * nodes + node]);
+        }
+        rgb.push_back(static_cast<float>(sum));
+      }
+    }
+  }
+  return {static_cast<int>(3 * directions), spectra.rows, spectra.columns, {{}, std::move(rgb)}};
 }
 
 BilinearWarp read_warp(const TensorFile& file, bool isotropic, std::size_t slices) {
-  const Slices vndf = read_slices(file, "vndf", isotropic, {file.floats("phi_i", 1).shape[0], slices});
+  const RglSlices vndf = read_slices(file, "vndf", isotropic, {file.floats("phi_i", 1).shape[0], slices});
   require_at_least(file, "vndf", vndf.tensor, 0, "0 or more");
   try {
     return {vndf.images, vndf.rows, vndf.columns, vndf.values()};
@@ -125,7 +153,7 @@ BilinearWarp read_warp(const TensorFile& file, bool isotropic, std::size_t slice
   }
 }
 
-double share_below_zero(const std::vector<float>& values) {
+double share_below_zero(std::span<const float> values) {
   const auto below = std::count_if(values.begin(), values.end(), [](float value) { return value < 0; });
   return static_cast<double>(below) / static_cast<double>(values.size());
 }
@@ -154,15 +182,17 @@ Between between_angles(const std::vector<double>& nodes, double angle) {
 
 RglMaterial::RglMaterial(const std::filesystem::path& path) : RglMaterial(TensorFile(path)) {}
 
-RglMaterial::RglMaterial(const TensorFile& file)
+RglMaterial::RglMaterial(const TensorFile& file) : RglMaterial(file, read_rgb(file)) {}
+
+RglMaterial::RglMaterial(const TensorFile& file, const RglSlices& rgb)
     : phi_i_(read_phi_i(file)),
       folds_(read_folds(file, phi_i_)),
       theta_i_(read_theta_i(file)),
       jacobian_(file.byte("jacobian") != 0),
-      negative_share_(share_below_zero(file.floats("rgb", 5).values)),
+      negative_share_(share_below_zero(rgb.values())),
       ndf_(read_profile(file, "ndf", isotropic(), 0.0F, "0 or more")),
       sigma_(read_profile(file, "sigma", isotropic(), std::numeric_limits<float>::min(), "more than 0")),
-      rgb_(read_rgb(file, isotropic(), theta_i_.size())),
+      rgb_(rgb.images, rgb.rows, rgb.columns, rgb.values()),
       vndf_(read_warp(file, isotropic(), theta_i_.size())) {}
 
 Rgb RglMaterial::f_cos(const Vec3& wo, const Vec3& wi) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// RGL `.bsdf` materials (Dupuy and Jakob 2018), RGB.
+/// RGL `.bsdf` materials (Dupuy and Jakob 2018).
 ///
 /// Directions are points of the unit square: u_x = sqrt(2 theta / pi), u_y = (phi + pi) / (2 pi). For known wi and half
 /// vector m: s is the inverse warp of u(m) by the visible-normal density `vndf` at wi, and
@@ -10,6 +10,8 @@
 /// At most two values of `phi_i`: isotropic, phi of m counts from wi. More: anisotropic, phi of m counts from x, S and
 /// vndf are linear in phi_i too, and `ndf` and `sigma` are images over (phi, theta). phi_i then spans the whole turn;
 /// or half of it, which a half turn of the surface repeats; or a quarter, which x -> -x and y -> -y repeat.
+///
+/// A file without `rgb` holds `spectra` at `wavelengths` (nm): their colours by rgb_weights take the place of S.
 
 #include <filesystem>
 
@@ -19,10 +21,12 @@
 
 namespace sklar::brdf {
 
+struct RglSlices;
+
 /// The material as stored: exchanging the directions changes the value, and it can be negative.
 class RglMaterial {
  public:
-  /// @throws FileError naming the file and the field that is missing, misshapen or out of range; for spectral files.
+  /// @throws FileError naming the file and the field that is missing, misshapen or out of range.
   explicit RglMaterial(const std::filesystem::path& path);
 
   /// f_r cos(theta_o), 1/sr. @param wi the direction that is known to the file. @param wo, wi unit, above the horizon.
@@ -39,11 +43,12 @@ class RglMaterial {
   /// Size in bytes of all images.
   [[nodiscard]] std::size_t bytes() const { return ndf_.bytes() + sigma_.bytes() + rgb_.bytes() + vndf_.bytes(); }
 
-  /// Share of the stored rgb values below 0.
+  /// Share of the stored values below 0; of spectra, of their colours.
   [[nodiscard]] double negative_share() const { return negative_share_; }
 
  private:
   explicit RglMaterial(const TensorFile& file);
+  RglMaterial(const TensorFile& file, const RglSlices& rgb);
 
   [[nodiscard]] Rgb f_cos_isotropic(const Vec3& wo, const Vec3& wi) const;
   [[nodiscard]] Rgb f_cos_anisotropic(Vec3 wo, Vec3 wi) const;

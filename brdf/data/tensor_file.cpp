@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
@@ -152,6 +153,58 @@ std::uint8_t TensorFile::byte(std::string_view name) const {
 
 void TensorFile::fail(const std::string& what) const {
   throw FileError(path_, what);
+}
+
+namespace {
+
+constexpr std::size_t kAlignment = 8;
+
+template <class T>
+void append(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::size_t aligned(std::size_t offset) {
+  return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+std::string_view data_of(const TensorField& field) {
+  const auto view = [&](const auto& values) {
+    std::size_t expected = 1;
+    for (const std::size_t extent : field.shape) expected *= extent;
+    if (values.size() != expected) {
+      throw std::invalid_argument("write_tensor_file: " + label(field.name) + " has " + std::to_string(values.size()) +
+                                  " values, its shape says " + std::to_string(expected));
+    }
+    return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
+  };
+  return std::visit(view, field.values);
+}
+
+}  // namespace
+
+void write_tensor_file(const std::filesystem::path& path, std::span<const TensorField> fields) {
+  std::string bytes(kMagic);
+  append(bytes, std::uint8_t{1});
+  append(bytes, std::uint8_t{0});
+  append(bytes, static_cast<std::uint32_t>(fields.size()));
+  std::size_t offset = bytes.size();
+  for (const TensorField& field : fields) offset += 2 + field.name.size() + 2 + 1 + 8 + 8 * field.shape.size();
+  for (const TensorField& field : fields) {
+    offset = aligned(offset);
+    append(bytes, static_cast<std::uint16_t>(field.name.size()));
+    bytes += field.name;
+    append(bytes, static_cast<std::uint16_t>(field.shape.size()));
+    append(bytes, std::holds_alternative<std::vector<float>>(field.values) ? kFloat32 : kByte);
+    append(bytes, static_cast<std::uint64_t>(offset));
+    for (const std::size_t extent : field.shape) append(bytes, static_cast<std::uint64_t>(extent));
+    offset += data_of(field).size();
+  }
+  for (const TensorField& field : fields) {
+    bytes.resize(aligned(bytes.size()));
+    bytes += data_of(field);
+  }
+  write_file(path, bytes);
 }
 
 }  // namespace sklar::brdf

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace sklar::brdf {
@@ -53,5 +55,18 @@ class TensorFile {
   std::string bytes_;
   std::map<std::string, Field, std::less<>> fields_;
 };
+
+/// One array to write.
+struct TensorField {
+  std::string name;
+  std::vector<std::size_t> shape;
+  std::variant<std::vector<float>, std::vector<std::uint8_t>> values;  ///< row-major, as many as the shape says
+};
+
+/// Writes a file, whole or not at all: the fields in this order, each array at a multiple of 8 bytes. The same fields
+/// give the same bytes.
+/// @throws std::invalid_argument naming the field whose values are not as many as its shape says; FileError if the file
+/// cannot be written.
+void write_tensor_file(const std::filesystem::path& path, std::span<const TensorField> fields);
 
 }  // namespace sklar::brdf

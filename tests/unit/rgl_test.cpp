@@ -183,7 +183,7 @@ TEST_F(Rgl, MisshapenFieldsAreRefusedByName) {
   (void)material(good);
   for (std::size_t n = 0; n < good.size(); ++n) expect_refused(without(n), "has no field '" + good[n].name + "'");
   expect_refused(with(5, [](auto& field) { field.name = "wavelengths"; }),
-                 "holds spectra and no field 'rgb'; only RGB files are read");
+                 "field 'wavelengths' has 5 dimensions, expected 1");
   expect_refused(with(1, set(3)), "field 'theta_i' must ascend within [0, pi/2]");
   expect_refused(with(1, set(-1)), "field 'theta_i' must ascend within [0, pi/2]");
   expect_refused(with(2, set(0)), "field 'sigma' holds 0.000000, expected more than 0");
