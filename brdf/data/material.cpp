@@ -6,15 +6,20 @@
 #include "brdf/data/isotropy.hpp"
 #include "brdf/data/merl.hpp"
 #include "brdf/data/rgl.hpp"
+#include "brdf/data/scattered.hpp"
 #include "brdf/data/table_brdf.hpp"
 
 namespace sklar::brdf {
 namespace {
 
 std::string material_name(const std::filesystem::path& path) {
-  constexpr std::string_view kSuffix = "_rgb";
   std::string name = path.stem().string();
-  if (name.size() > kSuffix.size() && name.ends_with(kSuffix)) name.resize(name.size() - kSuffix.size());
+  for (const std::string_view suffix : {"_rgb", "_spec"}) {
+    if (name.size() > suffix.size() && name.ends_with(suffix)) {
+      name.resize(name.size() - suffix.size());
+      break;
+    }
+  }
   return name;
 }
 
@@ -44,10 +49,15 @@ bool is_rgl(const std::filesystem::path& path) {
   return path.extension() == ".bsdf";
 }
 
-MeasuredTable read_binary(const std::filesystem::path& path, Provenance provenance) {
-  if (path.extension() != ".binary") {
+/// A file of any other format, which does not say where its data come from.
+MeasuredTable read_table(const std::filesystem::path& path, Provenance provenance) {
+  const std::string extension = path.extension().string();
+  if (extension == ".csv") return tabulate_scattered(read_scattered_csv(path), material_name(path), provenance);
+  if (extension == ".brdf") return tabulate_scattered(read_pbrt_brdf(path), material_name(path), provenance);
+  if (extension != ".binary") {
     throw FileError(path.string(),
-                    "has extension '" + path.extension().string() + "', expected .binary (MERL) or .bsdf (RGL)");
+                    "has extension '" + extension +
+                        "', expected .binary (MERL), .bsdf (RGL), .brdf (pbrt-v2) or .csv (wi, wo, rgb)");
   }
   MeasuredTable table = read_merl(path, provenance);
   table.name = material_name(path);
@@ -56,15 +66,15 @@ MeasuredTable read_binary(const std::filesystem::path& path, Provenance provenan
 
 }  // namespace
 
-Material read_material(const std::filesystem::path& path, Provenance binary_provenance) {
-  if (!is_rgl(path)) return read_binary(path, binary_provenance);
+Material read_material(const std::filesystem::path& path, Provenance provenance) {
+  if (!is_rgl(path)) return read_table(path, provenance);
   const RglFile file(path);
   if (file.isotropic()) return file.table(material_name(path));
   return resample_anisotropic(file.material, material_name(path));
 }
 
-MeasuredTable load_material(const std::filesystem::path& path, Provenance binary_provenance) {
-  if (!is_rgl(path)) return read_binary(path, binary_provenance);
+MeasuredTable load_material(const std::filesystem::path& path, Provenance provenance) {
+  if (!is_rgl(path)) return read_table(path, provenance);
   const RglFile file(path);
   if (file.isotropic()) return file.table(material_name(path));
   throw anisotropic_error(path.string(), file.isotropy_deviation);
@@ -77,7 +87,7 @@ BrdfPtr read_material_brdf(const std::filesystem::path& path) {
     return std::make_shared<const TableBrdf>(std::make_shared<const MeasuredTable>(file.table(material_name(path))));
   }
   return std::make_shared<const TableBrdf>(
-      std::make_shared<const MeasuredTable>(read_binary(path, Provenance::unknown)));
+      std::make_shared<const MeasuredTable>(read_table(path, Provenance::unknown)));
 }
 
 FileError anisotropic_error(std::string_view path, double isotropy_deviation) {

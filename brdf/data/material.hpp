@@ -12,16 +12,16 @@ namespace sklar::brdf {
 /// A material on three coordinates where it is isotropic, on four where not.
 using Material = std::variant<MeasuredTable, AnisotropicTable>;
 
-/// Reads a material file by its extension: `.binary` (MERL) or `.bsdf` (RGL). name is the file stem without `_rgb`. An
-/// anisotropic file of an isotropic material (isotropy_deviation at most kSymmetricDeviation) gives its isotropic_mean.
-/// @param binary_provenance what the caller knows of a `.binary`, whose format does not say; `.bsdf` is measured.
-/// @throws FileError for another extension, and as read_merl and RglMaterial do.
-[[nodiscard]] Material read_material(const std::filesystem::path& path,
-                                     Provenance binary_provenance = Provenance::unknown);
+/// Reads a material file by its extension: `.binary` (MERL), `.bsdf` (RGL), `.brdf` (pbrt-v2) or `.csv`, the last two
+/// by tabulate_scattered. name is the file stem without `_rgb` or `_spec`. An anisotropic file of an isotropic material
+/// (isotropy_deviation at most kSymmetricDeviation) gives its isotropic_mean.
+/// @param provenance what the caller knows of a file whose format does not say; `.bsdf` is measured.
+/// @throws FileError for another extension, and as read_merl, RglMaterial and the readers of scattered.hpp do.
+[[nodiscard]] Material read_material(const std::filesystem::path& path, Provenance provenance = Provenance::unknown);
 
 /// The same, of isotropic materials. @throws FileError also for an anisotropic one, with its isotropy_deviation.
 [[nodiscard]] MeasuredTable load_material(const std::filesystem::path& path,
-                                          Provenance binary_provenance = Provenance::unknown);
+                                          Provenance provenance = Provenance::unknown);
 
 /// The material as a reflectance: an isotropic one by TableBrdf from its table, an anisotropic `.bsdf` read directly.
 /// @throws as read_material.

@@ -39,7 +39,7 @@ struct ImportReport {
 
 /// f_r [1/sr] in three planes and one mask. Masked (invalid) cells hold 0 and take no part in fits and error measures.
 struct MeasuredTable {
-  std::string name;  ///< material name: file stem without "_rgb"
+  std::string name;  ///< material name: file stem without "_rgb" or "_spec"
   Provenance provenance = Provenance::unknown;
   ImportReport report;
   std::array<std::vector<double>, 3> values;  ///< red, green, blue; Grid::cells each, finite and >= 0

@@ -40,7 +40,9 @@ void add_fit_options(CLI::App& command, FitOptions& options, const std::vector<s
   command.add_option("--measure", options.measure, "what a cell counts: one (cell) or its solid angle")
       ->transform(CLI::CheckedTransformer(by_text({CellMeasure::per_cell, CellMeasure::per_solid_angle})))
       ->default_str("cell");
-  command.add_option("--provenance", options.provenance, "what the data of a .binary file are, for titles and tables")
+  command
+      .add_option("--provenance", options.provenance,
+                  "what the data of a file are that does not say (all but .bsdf), for titles and tables")
       ->transform(CLI::CheckedTransformer(
           by_text({Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown})))
       ->default_str("unknown");

@@ -16,17 +16,17 @@ void add_material(CLI::App& command, std::string& path) {
   command.add_option("MATERIAL", path, kMaterialHelp);
 }
 
-std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path, brdf::Provenance binary_provenance) {
+std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path, brdf::Provenance provenance) {
   if (path == brdf::kAnisotropicSynthetic)
     throw brdf::anisotropic_error(path, brdf::isotropy_deviation(*brdf::brushed_metal()));
   return std::make_shared<const brdf::MeasuredTable>(
-      path.empty() || path == "synthetic" ? brdf::builtin_material() : brdf::load_material(path, binary_provenance));
+      path.empty() || path == "synthetic" ? brdf::builtin_material() : brdf::load_material(path, provenance));
 }
 
-brdf::Material load_any_table(const std::string& path, brdf::Provenance binary_provenance) {
+brdf::Material load_any_table(const std::string& path, brdf::Provenance provenance) {
   if (path == brdf::kAnisotropicSynthetic) return brdf::builtin_anisotropic_material();
   if (path.empty() || path == "synthetic") return brdf::builtin_material();
-  return brdf::read_material(path, binary_provenance);
+  return brdf::read_material(path, provenance);
 }
 
 brdf::BrdfPtr load_brdf(const std::string& path) {

@@ -12,19 +12,19 @@
 namespace sklar::cli {
 
 inline constexpr const char* kMaterialHelp =
-    "MERL .binary, RGL .bsdf, or one of the built-in materials synthetic (the default) and synthetic-anisotropic";
+    "MERL .binary, RGL .bsdf, pbrt-v2 .brdf, .csv of wi, wo, rgb, or one of the built-in materials synthetic (the "
+    "default) and synthetic-anisotropic";
 
 /// Adds the positional MATERIAL; omitted, it is the built-in one.
 void add_material(CLI::App& command, std::string& path);
 
 /// An isotropic material: a file, or the built-in one where path is empty or its name.
-/// @param binary_provenance of a MERL-format file, which does not say. @throws FileError; also for an anisotropic
-/// material.
+/// @param provenance of a file whose format does not say. @throws FileError; also for an anisotropic material.
 [[nodiscard]] std::shared_ptr<const brdf::MeasuredTable> load_table(
-    const std::string& path, brdf::Provenance binary_provenance = brdf::Provenance::unknown);
+    const std::string& path, brdf::Provenance provenance = brdf::Provenance::unknown);
 
 /// A material on three coordinates where it is isotropic, on four where not. @throws FileError.
-[[nodiscard]] brdf::Material load_any_table(const std::string& path, brdf::Provenance binary_provenance);
+[[nodiscard]] brdf::Material load_any_table(const std::string& path, brdf::Provenance provenance);
 
 /// A fitted model (.json, .sklar), or any material, read between its cell centres or as its file says.
 [[nodiscard]] brdf::BrdfPtr load_brdf(const std::string& path);

@@ -294,8 +294,10 @@ TEST_F(Rgl, ExtensionDecides) {
     (void)load_material(folder_ / "x.txt");
     ADD_FAILURE();
   } catch (const FileError& error) {
-    EXPECT_EQ(error.what(),
-              (folder_ / "x.txt").string() + ": has extension '.txt', expected .binary (MERL) or .bsdf (RGL)");
+    EXPECT_EQ(
+        error.what(),
+        (folder_ / "x.txt").string() +
+            ": has extension '.txt', expected .binary (MERL), .bsdf (RGL), .brdf (pbrt-v2) or .csv (wi, wo, rgb)");
   }
   EXPECT_THROW((void)load_material(folder_ / "missing.bsdf"), FileError);
   EXPECT_THROW((void)load_material(folder_ / "missing.binary"), FileError);
