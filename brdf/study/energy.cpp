@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "brdf/data/interpolation.hpp"
+#include "brdf/geometry/frame.hpp"
 #include "brdf/model/spline.hpp"
 #include "brdf/model/warp.hpp"
 #include "brdf/render/hemisphere.hpp"
@@ -127,11 +129,14 @@ std::shared_ptr<const AnisotropicModel> lowered(const AnisotropicModel& model, c
       s, lowered(AnisotropicLayout(s), model.coefficients(), s.components, AnisotropicPart::shape, s.half, log_factor));
 }
 
+void require_limit(double limit) {
+  if (limit > 0) return;
+  throw std::invalid_argument("limit_albedo: the limit is " + to_text(limit) + ", it must be positive");
+}
+
 template <class Model>
 Limited<Model> limited(const std::shared_ptr<const Model>& model, double limit) {
-  if (!(limit > 0)) {
-    throw std::invalid_argument("limit_albedo: the limit is " + to_text(limit) + ", it must be positive");
-  }
+  require_limit(limit);
   constexpr int kSteps = 200;
   constexpr double kMargin = 1e-3;  // of a step beyond the limit, for what the rounding of coefficients adds
   Worst worst = worst_of(*model);
@@ -152,7 +157,98 @@ Limited<Model> limited(const std::shared_ptr<const Model>& model, double limit) 
   return result;
 }
 
+constexpr int kDegrees = 90;
+
+Between degrees_of(const Vec3& w) {
+  return between_clamped(polar_angle(w) / kDegree, kDegrees);
+}
+
+/// Where the light goes that comes at theta_o = 0, 1, .., 89 degrees: for each of some phi_o the shares of its albedo
+/// by degrees of theta_i.
+class Reflected {
+ public:
+  explicit Reflected(const Brdf& brdf) : azimuths_(brdf.traits().isotropic ? 1 : Views<AnisotropicModel>::azimuths) {
+    const HemisphereOptions nodes = azimuths_ == 1 ? Views<RefinedBrdf>::nodes : Views<AnisotropicModel>::nodes;
+    shares_.assign(static_cast<std::size_t>(kDegrees * azimuths_), RgbRows::Zero(kDegrees, 3));
+    tbb::parallel_for(0, kDegrees * azimuths_, [&](int view) {
+      const Quadrature q =
+          quadrature_at({view / azimuths_ * kDegree, view % azimuths_ * (360 * kDegree / azimuths_)}, nodes);
+      const RgbRows light = brdf.eval(q.wo, q.wi).colwise() * q.weight;
+      RgbRows& shares = shares_[static_cast<std::size_t>(view)];
+      for (Eigen::Index row = 0; row < light.rows(); ++row) {
+        const Between degree = degrees_of(q.wi.row(row).transpose());
+        shares.row(degree.low) += (1 - degree.share) * light.row(row);
+        shares.row(degree.high) += degree.share * light.row(row);
+      }
+    });
+  }
+
+  /// The albedo of f_r k(theta_i) k(theta_o), the largest over phi_o. @param k at 0, 1, .., 89 degrees.
+  [[nodiscard]] RgbRows albedo(const RgbRows& k) const {
+    RgbRows largest = RgbRows::Zero(kDegrees, 3);
+    for (std::size_t view = 0; view < shares_.size(); ++view) {
+      const auto row = static_cast<Eigen::Index>(view) / azimuths_;
+      largest.row(row) = largest.row(row).max((shares_[view] * k).colwise().sum() * k.row(row));
+    }
+    return largest;
+  }
+
+ private:
+  int azimuths_;
+  std::vector<RgbRows> shares_;
+};
+
+/// f_r k(theta_i) k(theta_o).
+class Dimmed final : public Brdf {
+ public:
+  /// @param factor k at 0, 1, .., 89 degrees.
+  Dimmed(BrdfPtr brdf, RgbRows factor) : brdf_(std::move(brdf)), factor_(std::move(factor)) {}
+
+  using Brdf::eval;
+  [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const override {
+    return brdf_->eval(wo, wi) * (at(wo) * at(wi));
+  }
+  [[nodiscard]] double pdf(const Vec3& wo, const Vec3& wi) const override { return brdf_->pdf(wo, wi); }
+  [[nodiscard]] Traits traits() const override { return brdf_->traits(); }
+  [[nodiscard]] std::size_t bytes() const override {
+    return brdf_->bytes() + static_cast<std::size_t>(factor_.size()) * sizeof(double);
+  }
+
+ protected:
+  [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
+    return brdf_->sample(wo, uniforms).wi;
+  }
+
+ private:
+  [[nodiscard]] Rgb at(const Vec3& w) const {
+    const Between degree = degrees_of(w);
+    return factor_.row(degree.low) + degree.share * (factor_.row(degree.high) - factor_.row(degree.low));
+  }
+
+  BrdfPtr brdf_;
+  RgbRows factor_;
+};
+
 }  // namespace
+
+Limited<Brdf> limit_albedo(const BrdfPtr& brdf, double limit) {
+  require_limit(limit);
+  constexpr int kSteps = 100;
+  const Reflected reflected(*brdf);
+  RgbRows k = RgbRows::Ones(kDegrees, 3);
+  RgbRows albedo = reflected.albedo(k);
+  Limited<Brdf> result{.brdf = brdf, .albedo_before = albedo.maxCoeff(), .albedo_after = albedo.maxCoeff()};
+  if (result.albedo_before <= limit) return result;
+  for (int step = 0; step < kSteps; ++step) {
+    k *= (limit / albedo.max(limit)).sqrt();  // half of what is missing: the other half comes from the other direction
+    albedo = reflected.albedo(k);
+  }
+  k *= limit / albedo.max(limit);
+  result.brdf = std::make_shared<const Dimmed>(brdf, k);
+  result.albedo_after = reflected.albedo(k).maxCoeff();
+  result.lowest_factor = k.minCoeff() * k.minCoeff();
+  return result;
+}
 
 Limited<RefinedBrdf> limit_albedo(const std::shared_ptr<const RefinedBrdf>& model, double limit) {
   return limited(model, limit);

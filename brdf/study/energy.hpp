@@ -27,4 +27,9 @@ struct Limited {
 [[nodiscard]] Limited<AnisotropicModel> limit_albedo(const std::shared_ptr<const AnisotropicModel>& model,
                                                      double limit = 1);
 
+/// The same for any reflectance and channel by channel: f_r is multiplied by k(theta_i) k(theta_o), at most 1. k is 1
+/// where the albedo keeps the limit, and lowered by turns elsewhere; it is found at 0, 1, .., 89 degrees, of an
+/// anisotropic reflectance from the largest albedo over phi_o of 0, 15, .., 345, and linear between them.
+[[nodiscard]] Limited<Brdf> limit_albedo(const BrdfPtr& brdf, double limit = 1);
+
 }  // namespace sklar::brdf

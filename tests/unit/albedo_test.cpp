@@ -13,6 +13,7 @@
 #include "brdf/analytic/lambert.hpp"
 #include "brdf/data/material.hpp"
 #include "brdf/data/table_brdf.hpp"
+#include "brdf/study/energy.hpp"
 #include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
@@ -82,6 +83,35 @@ TEST(Albedo, RefusesAnisotropyAndTheHorizon) {
   EXPECT_THROW((void)directional_albedo(brushed), std::invalid_argument);
   EXPECT_THROW((void)directional_albedo(Lambert(Rgb::Ones()), Eigen::ArrayXd::Constant(1, 90 * kDegree)),
                std::domain_error);
+}
+
+TEST(Albedo, AnyReflectanceIsLoweredToALimit) {
+  constexpr double kNodes = 1e-3;  // relative, of albedos between the degrees
+  const auto bright = std::make_shared<const test::FunctionBrdf>([](const Vec3& wo, const Vec3& wi) -> Rgb {
+    return Rgb(0.5, 0.9, 0.9 + 0.1 / (wo.z() + wi.z() + 0.1)) / std::numbers::pi;
+  });
+  EXPECT_EQ(limit_albedo(BrdfPtr(bright), 2).brdf, bright);
+  const Limited<Brdf> limited = limit_albedo(BrdfPtr(bright));
+  EXPECT_GT(limited.albedo_before, 1.04);
+  EXPECT_NEAR(limited.albedo_after, 1, 1e-6);
+  EXPECT_LT(limited.lowest_factor, 1);
+  EXPECT_LE(directional_albedo(*limited.brdf).albedo.maxCoeff(), 1 + kNodes);
+  const Vec3 up(0.48, 0.36, 0.8), low(-0.8, 0.5916079783099616, 0.1);
+  EXPECT_TRUE((limited.brdf->eval(up, low) == limited.brdf->eval(low, up)).all());
+  EXPECT_TRUE((limited.brdf->eval(up, low).head<2>() == bright->eval(up, low).head<2>()).all());
+  EXPECT_LT(limited.brdf->eval(up, low)[2], bright->eval(up, low)[2]);
+  EXPECT_EQ(limited.brdf->eval(up, up)[2], bright->eval(up, up)[2]);
+  EXPECT_THROW((void)limit_albedo(BrdfPtr(bright), 0), std::invalid_argument);
+
+  const Limited<Brdf> even = limit_albedo(std::make_shared<const Lambert>(Rgb::Constant(1.0)), 0.7);
+  EXPECT_LT((directional_albedo(*even.brdf).albedo / 0.7 - 1).abs().maxCoeff(), kNodes);
+
+  const auto brushed = std::make_shared<const test::FunctionBrdf>(
+      [](const Vec3& wo, const Vec3&) -> Rgb { return Rgb::Constant((1 + wo.x() * wo.x()) / std::numbers::pi); },
+      Traits{.reciprocal = false, .isotropic = false});
+  const Limited<Brdf> dimmed = limit_albedo(BrdfPtr(brushed));
+  EXPECT_GT(dimmed.albedo_before, 1.9);
+  EXPECT_NEAR(dimmed.albedo_after, 1, 1e-6);
 }
 
 }  // namespace
