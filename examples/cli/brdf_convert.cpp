@@ -1,12 +1,17 @@
-#include <array>
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "brdf/code/cpp_header.hpp"
 #include "brdf/code/glsl.hpp"
 #include "brdf/data/merl.hpp"
+#include "brdf/data/rgl_writer.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/model/model_io.hpp"
 #include "brdf/study/energy.hpp"
@@ -19,6 +24,13 @@
 namespace sklar::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string in, out, form = "rgb";
+  double max_albedo = 1;
+};
+
 // A material, or a fitted model at the cell centres.
 std::shared_ptr<const brdf::MeasuredTable> table_of(const std::string& path) {
   if (!brdf::is_model_path(path)) return load_table(path);
@@ -26,76 +38,129 @@ std::shared_ptr<const brdf::MeasuredTable> table_of(const std::string& path) {
   return std::make_shared<const brdf::MeasuredTable>(brdf::tabulate(*model.brdf(), model.material, model.provenance));
 }
 
-// A model as source, by extension.
-struct SourceWriter {
-  const char* extension;
-  std::string (*text)(const brdf::RefinedBrdf& model, const std::string& material);
+Json write_model(const Options& options) {
+  if (!brdf::is_model_path(options.in)) throw FileError(options.in, "is no model; `sklar brdf fit` makes one of it");
+  brdf::write_brdf(options.out, brdf::read_brdf(options.in));
+  return Json::object();
+}
+
+Json write_binary(const Options& options) {
+  brdf::write_merl(options.out, *table_of(options.in));
+  return Json::object();
+}
+
+template <class Model>
+Json json_of(const brdf::Limited<Model>& limited) {
+  return {{"albedo_before", limited.albedo_before},
+          {"albedo", limited.albedo_after},
+          {"lowest_factor", limited.lowest_factor}};
+}
+
+Json write_bsdf(const Options& options) {
+  const auto limited = brdf::limit_albedo(load_brdf(options.in), options.max_albedo);
+  const auto form = options.form == "spectra" ? brdf::RglForm::spectra : brdf::RglForm::rgb;
+  brdf::write_rgl(options.out, *limited.brdf,
+                  {.form = form, .description = std::filesystem::path(options.in).stem().string() + " (sklar)"});
+  return json_of(limited);
+}
+
+using Source = std::string (*)(const brdf::RefinedBrdf& model, const std::string& material);
+
+Json write_source(const Options& options, Source source) {
+  if (!brdf::is_model_path(options.in)) throw FileError(options.in, "written as source are models, .json or .sklar");
+  const brdf::StoredBrdf stored = brdf::read_brdf(options.in);
+  const auto* model = std::get_if<std::shared_ptr<const brdf::RefinedBrdf>>(&stored.model);
+  if (model == nullptr) throw FileError(options.in, "written as source are refined models of isotropic materials");
+  const brdf::Limited<brdf::RefinedBrdf> limited = brdf::limit_albedo(*model, options.max_albedo);
+  write_file(options.out, source(*limited.brdf, stored.material));
+  return json_of(limited);
+}
+
+Json write_glsl(const Options& options) {
+  return write_source(options, [](const brdf::RefinedBrdf& model, const std::string& material) {
+    return to_glsl(sampling_code(model, brdf::ConditionalSampler(model)), material);
+  });
+}
+
+Json write_cpp(const Options& options) {
+  return write_source(options, [](const brdf::RefinedBrdf& model, const std::string& material) {
+    return to_cpp_header(sampling_code(model, brdf::ConditionalSampler(model)), material);
+  });
+}
+
+Json write_explorer(const Options& options) {
+  return write_source(options, [](const brdf::RefinedBrdf& model, const std::string& material) {
+    return to_brdf_explorer(evaluation_code(model), material);
+  });
+}
+
+struct Format {
+  std::string extension;
+  std::vector<std::string> options;           ///< of those below, the ones that it takes
+  std::function<Json(const Options&)> write;  ///< @return what --json says of it, besides the file's name
 };
 
-constexpr std::array<SourceWriter, 3> kSources = {{
-    {".glsl",
-     [](const brdf::RefinedBrdf& model, const std::string& material) {
-       return to_glsl(sampling_code(model, brdf::ConditionalSampler(model)), material);
-     }},
-    {".hpp",
-     [](const brdf::RefinedBrdf& model, const std::string& material) {
-       return to_cpp_header(sampling_code(model, brdf::ConditionalSampler(model)), material);
-     }},
-    {".brdf", [](const brdf::RefinedBrdf& model,
-                 const std::string& material) { return to_brdf_explorer(evaluation_code(model), material); }},
-}};
+const std::vector<Format> kFormats = {{".json", {}, write_model},
+                                      {".sklar", {}, write_model},
+                                      {".binary", {}, write_binary},
+                                      {".bsdf", {"--form", "--max-albedo"}, write_bsdf},
+                                      {".glsl", {"--max-albedo"}, write_glsl},
+                                      {".hpp", {"--max-albedo"}, write_cpp},
+                                      {".brdf", {"--max-albedo"}, write_explorer}};
 
-const SourceWriter* source_writer(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  for (const SourceWriter& writer : kSources) {
-    if (extension == writer.extension) return &writer;
+const Format& format_of(const std::string& out) {
+  const std::string extension = std::filesystem::path(out).extension().string();
+  std::string known;
+  for (const Format& format : kFormats) {
+    if (format.extension == extension) return format;
+    known += (known.empty() ? "" : ", ") + format.extension;
   }
-  return nullptr;
+  throw FileError(out, "has extension '" + extension + "', expected one of " + known);
 }
 
-// The model with an albedo of at most 1.
-void write_source(const std::string& in, const std::string& out, const SourceWriter& writer) {
-  if (!brdf::is_model_path(in)) throw FileError(in, "written as source are models, .json or .sklar");
-  const brdf::StoredBrdf stored = brdf::read_brdf(in);
-  const auto* model = std::get_if<std::shared_ptr<const brdf::RefinedBrdf>>(&stored.model);
-  if (model == nullptr) throw FileError(in, "written as source are refined models of isotropic materials");
-  const brdf::Limited<brdf::RefinedBrdf> limited = brdf::limit_albedo(*model);
-  if (limited.lowest_factor < 1) {
-    std::cerr << "note: " << in << " has a directional albedo of " << digits(limited.albedo_before) << "; " << out
-              << " has " << digits(limited.albedo_after) << ", its values multiplied by "
-              << digits(limited.lowest_factor) << " to 1\n";
+void run(const CLI::App& command, const Options& options, bool json) {
+  const Format& format = format_of(options.out);
+  for (const std::string option : {"--form", "--max-albedo"}) {
+    const bool takes = std::find(format.options.begin(), format.options.end(), option) != format.options.end();
+    if (!takes && command.count(option) > 0) {
+      throw std::invalid_argument(option + " does not go with " + format.extension);
+    }
   }
-  write_file(out, writer.text(*limited.brdf, stored.material));
-}
-
-void run(const std::string& in, const std::string& out, bool json) {
-  if (brdf::is_model_path(in) && brdf::is_model_path(out)) {
-    brdf::write_brdf(out, brdf::read_brdf(in));
-  } else if (std::filesystem::path(out).extension() == ".binary") {
-    brdf::write_merl(out, *table_of(in));
-  } else if (const SourceWriter* writer = source_writer(out); writer != nullptr) {
-    write_source(in, out, *writer);
-  } else {
-    throw FileError(out, "a table is written as .binary, a model as .json or .sklar, or as source: .glsl, .hpp, .brdf");
+  const Json said = format.write(options);
+  if (json) {
+    Json document = {{"output", options.out}};
+    document.update(said);
+    print_json(document);
+  } else if (said.value("lowest_factor", 1.0) < 1) {
+    const auto figure = [&](const char* name) { return digits(said[name].get<double>()); };
+    std::cout << "largest directional albedo " << figure("albedo_before") << ", limited " << figure("albedo")
+              << "; values multiplied by " << figure("lowest_factor") << " to 1\n";
   }
-  if (json) print_json({{"output", out}});
 }
 
 }  // namespace
 
 void add_brdf_convert(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("convert", "write a material in another format, by extension");
-  const auto in = std::make_shared<std::string>();
-  const auto out = std::make_shared<std::string>();
-  command->add_option("IN", *in, "MERL .binary, RGL .bsdf of an isotropic material, or fitted model .json or .sklar")
-      ->required();
+  const auto options = std::make_shared<Options>();
+  command->add_option("IN", options->in, std::string(kMaterialHelp) + ", or fitted model .json or .sklar")->required();
   command
       ->add_option(
-          "OUT", *out,
-          "MERL .binary, or of a model .json or .sklar, or its source: .glsl, .hpp (C++17), .brdf (BRDF Explorer); "
-          "as source its albedo is at most 1")
+          "OUT", options->out,
+          "MERL .binary (isotropic), RGL .bsdf for Mitsuba 3 and pbrt-v4; of a model .json or .sklar, or as source "
+          ".glsl, .hpp (C++17) or .brdf (BRDF Explorer)")
       ->required();
-  finish_command(*command, common, [=, &common] { run(*in, *out, common.json); });
+  command
+      ->add_option("--form", options->form,
+                   ".bsdf: rgb (Mitsuba 3, RGB variants) or spectra (pbrt-v4; Mitsuba 3, spectral variants)")
+      ->check(CLI::IsMember({"rgb", "spectra"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--max-albedo", options->max_albedo,
+          ".bsdf and source: lower the reflectance where its directional albedo is larger; inf leaves it as it is")
+      ->capture_default_str();
+  finish_command(*command, common, [command, options, &common] { run(*command, *options, common.json); });
 }
 
 }  // namespace sklar::cli
