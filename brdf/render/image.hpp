@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace sklar::brdf {
@@ -49,7 +50,10 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 /// @throws FileError if the file is missing, damaged or has no channels R, G, B.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path);
 
-/// 8-bit PNG with an sRGB chunk. @throws FileError
+/// The bytes of an 8-bit PNG file with an sRGB chunk. @throws std::runtime_error for a picture without pixels.
+[[nodiscard]] std::string to_png(const Bytes& bytes);
+
+/// The same as a file. @throws FileError, std::runtime_error
 void write_png(const std::filesystem::path& path, const Bytes& bytes);
 void write_png(const std::filesystem::path& path, const Image& image, double exposure = 1.0);
 

@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "brdf/render/image.hpp"
@@ -21,7 +22,7 @@ png_image header(int width, int height) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Bytes& bytes) {
+std::string to_png(const Bytes& bytes) {
   png_image image = header(bytes.width, bytes.height);
   png_alloc_size_t size = 0;
   std::string file;
@@ -30,8 +31,13 @@ void write_png(const std::filesystem::path& path, const Bytes& bytes) {
     file.resize(size);
     written = png_image_write_to_memory(&image, file.data(), &size, 0, bytes.rgb.data(), 0, nullptr) != 0;
   }
-  if (!written) throw FileError(path.string(), std::string("cannot be encoded as PNG: ") + image.message);
-  write_file(path, {file.data(), size});
+  if (!written) throw std::runtime_error(std::string("a picture cannot be encoded as PNG: ") + image.message);
+  file.resize(size);
+  return file;
+}
+
+void write_png(const std::filesystem::path& path, const Bytes& bytes) {
+  write_file(path, to_png(bytes));
 }
 
 Bytes read_png(const std::filesystem::path& path) {
