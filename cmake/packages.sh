@@ -1,9 +1,9 @@
 # Debian 12 packages and how they are installed; sourced by examples/quickstart.sh, tests/run.sh and .ci/run.
 
 build_packages="cmake ninja-build g++ pkg-config libeigen3-dev libboost-dev libmpfr-dev libhwy-dev libnlopt-dev libnlopt-cxx-dev libopenexr-dev
-  libpng-dev libcairo2-dev libtbb-dev libembree-dev nlohmann-json3-dev libcli11-dev libgtest-dev
+  libpng-dev libcairo2-dev libtbb-dev libembree-dev nlohmann-json3-dev libjs-chart.js libcli11-dev libgtest-dev
   glslang-tools"
-ci_packages="$build_packages git clang clang-format clang-tidy"
+ci_packages="$build_packages chromium git clang clang-format clang-tidy"
 
 # need_packages NAME...: installs those that are missing, as root or through sudo; where that cannot be, says what is
 # missing and ends the script with status 1.

@@ -28,7 +28,7 @@ allowed() {
     brdf/sampling) echo "$data|$1/.*" ;;
     brdf/code) echo "$data|brdf/(model|sampling|code)/.*" ;;
     brdf/render) echo "$render" ;;
-    brdf/study) echo "$render|brdf/(code|study)/.*" ;;
+    brdf/study | brdf/study/report) echo "$render|brdf/(code|study)/.*" ;;
     *) complain "$1: no rule says what it may include" >&2 ;;
   esac
 }

@@ -1,0 +1,73 @@
+#include "brdf/study/copula_density.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "brdf/model/paper_brdf.hpp"
+#include "brdf/model/refined_brdf.hpp"
+#include "brdf/study/table_text.hpp"
+#include "copula/json_fields.hpp"
+#include "families/registry.hpp"
+
+namespace sklar::brdf {
+namespace {
+
+using json::Json;
+
+constexpr int kNodes = 24;  ///< a side
+constexpr std::size_t kGreen = 1;
+
+double three_digits(double value) {
+  return std::stod(printed("%.3g", value));
+}
+
+/// An entry; null where two coordinates alone do not have the family.
+Json entry(const FamilyInfo& family, const Theta& theta, double theta_d, int component) {
+  if (!family.admits(2, theta)) return nullptr;
+  Eigen::ArrayXXd u(kNodes * kNodes, 2);
+  for (int n = 0; n < u.rows(); ++n) u.row(n) << (n / kNodes + 0.5) / kNodes, (n % kNodes + 0.5) / kNodes;
+  const Eigen::ArrayXd density = family.make(2, theta)->log_pdf(u).exp();
+  Json rows = Json::array();
+  for (int i = 0; i < kNodes; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < kNodes; ++j) row.push_back(three_digits(density(i * kNodes + j)));
+    rows.push_back(std::move(row));
+  }
+  return {{"theta_d", theta_d}, {"component", component}, {"tau", three_digits(family.tau(theta))}, {"density", rows}};
+}
+
+Json of_paper(const PaperBrdf& brdf) {
+  const FamilyInfo family = brdf.definition().empty() ? families::find(brdf.family())
+                                                      : families::from_definition(brdf.definition(), brdf.family());
+  Json array = Json::array();
+  for (int slice = 0; slice < brdf.slices(); ++slice) {
+    const PaperSlice& green = brdf.channels()[kGreen][static_cast<std::size_t>(slice)];
+    if (green.scale > 0) array.push_back(entry(family, green.theta, (slice + 0.5) * 90 / brdf.slices(), 1));
+  }
+  return array;
+}
+
+Json of_refined(const RefinedBrdf& brdf) {
+  Json array = Json::array();
+  for (const double theta_d : {15, 45, 75}) {
+    for (int k = 0; k < static_cast<int>(brdf.families().size()); ++k) {
+      const FamilyInfo& family = brdf.families()[static_cast<std::size_t>(k)];
+      if (family.parameters.empty()) continue;
+      const double tau = brdf.tau(k, theta_d * std::numbers::pi / 180);
+      array.push_back(entry(family, family.from_tau(2, tau), theta_d, k + 1));
+    }
+  }
+  return array;
+}
+
+}  // namespace
+
+std::string copula_densities_json(const Brdf& brdf) {
+  Json array = Json::array();
+  if (const auto* paper = dynamic_cast<const PaperBrdf*>(&brdf)) array = of_paper(*paper);
+  if (const auto* refined = dynamic_cast<const RefinedBrdf*>(&brdf)) array = of_refined(*refined);
+  array.erase(std::remove(array.begin(), array.end(), nullptr), array.end());
+  return array.dump();
+}
+
+}  // namespace sklar::brdf
