@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "brdf/data/table_brdf.hpp"
+#include "brdf/study/curves.hpp"
 #include "brdf/study/evaluation_time.hpp"
 #include "copula/study/timing.hpp"
 
@@ -23,7 +25,7 @@ BrdfPtr fit_family(CompareRow& row, const MeasuredTable& table, const FamilyInfo
 }
 
 // Everything but the sphere, which all models share.
-View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo& family,
+View fit_and_view(CompareRow& row, std::string& curves, const MeasuredTable& table, const FamilyInfo& family,
                   const FamilyFitOptions& options) {
   const Stopwatch stopwatch;
   const BrdfPtr brdf = fit_family(row, table, family, options);
@@ -37,6 +39,7 @@ View fit_and_view(CompareRow& row, const MeasuredTable& table, const FamilyInfo&
   row.cuberoot_rms = errors.cuberoot_rms.mean();
   row.rel_l2 = errors.rel_l2.mean();
   row.albedo_max = result.albedo.albedo.maxCoeff();
+  curves = curves_json(*brdf, result);
   return result;
 }
 
@@ -53,6 +56,7 @@ Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::spa
   std::vector<View> models;
   std::vector<const CellValues*> tables = {&reference.cells};
   Comparison result;
+  result.reference_curves = curves_json(TableBrdf(table), reference);
   for (const FamilyFitOptions& mode : modes) {
     for (const FamilyInfo* family : families) {
       CompareRow row{.material = table->name,
@@ -60,8 +64,9 @@ Comparison compare_families(std::shared_ptr<const MeasuredTable> table, std::spa
                      .family = family->name,
                      .mode = std::holds_alternative<PaperFitOptions>(mode) ? "paper" : "refined"};
       say(row.mode + ", " + family->name);
+      std::string& curves = result.curves.emplace_back();
       try {
-        models.push_back(fit_and_view(row, *table, *family, mode));
+        models.push_back(fit_and_view(row, curves, *table, *family, mode));
         if (modes.size() > 1) models.back().name = row.mode + ", " + models.back().name;
       } catch (const std::runtime_error& error) {
         row.error = error.what();

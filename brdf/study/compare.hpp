@@ -41,6 +41,8 @@ struct Comparison {
   std::vector<std::filesystem::path> figures;  ///< as write_figures names them
   Image reference;                             ///< the sphere of the table
   std::vector<Image> spheres;                  ///< those of the rows; empty where there is no model
+  std::string reference_curves;                ///< curves_json of the table
+  std::vector<std::string> curves;             ///< and of the rows; empty where there is no model
 };
 
 /// Writes FOLDER/spheres_MODE_FAMILY.png for every row, a column for each material that has the model (the paper's

@@ -5,7 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "brdf/data/table_brdf.hpp"
 #include "brdf/geometry/frame.hpp"
+#include "brdf/study/curves.hpp"
 #include "brdf/study/efficiency.hpp"
 #include "brdf/study/evaluation_time.hpp"
 #include "brdf/study/figures.hpp"
@@ -53,7 +55,18 @@ double sampling_efficiency_of(const Brdf& brdf) {
   return sum / kEfficiencyAngles.size();
 }
 
-void judge(ModelRow& row, const Brdf& brdf, Reference& reference, Image& sphere) {
+/// What is kept of a model beside its row.
+struct Kept {
+  Image sphere{};
+  std::string curves{};
+};
+
+/// Empty where the file is missing.
+std::string kept_text(const std::filesystem::path& path) {
+  return std::filesystem::exists(path) ? read_file(path) : "";
+}
+
+void judge(ModelRow& row, const Brdf& brdf, Reference& reference, Kept& kept) {
   row.eval_ns = evaluation_ns(brdf);
   const View model = view(row.model, brdf, reference.table());
   const CellErrors errors = cell_errors(reference.table(), model.cells);
@@ -70,17 +83,17 @@ void judge(ModelRow& row, const Brdf& brdf, Reference& reference, Image& sphere)
   row.sampling_efficiency = sampling_efficiency_of(brdf);
   row.reciprocity_error = reciprocity_error(brdf);
   row.albedo_max = model.albedo.albedo.maxCoeff();
-  sphere = model.sphere;
+  kept = {model.sphere, curves_json(brdf, model)};
 }
 
-ModelRow fit_and_judge(const ContenderData& data, const Contender& contender, Reference& reference, Image& sphere) {
+ModelRow fit_and_judge(const ContenderData& data, const Contender& contender, Reference& reference, Kept& kept) {
   ModelRow row{.material = data.table->name,
                .provenance = data.table->provenance,
                .kind = contender.kind,
                .model = contender.model,
                .budget = contender.max_bytes};
   const auto fail = [&](const std::exception& error) {
-    sphere = Image();
+    kept = {};
     row.error = error.what();
   };
   try {
@@ -89,7 +102,7 @@ ModelRow fit_and_judge(const ContenderData& data, const Contender& contender, Re
     row.fit_s = stopwatch.seconds();
     row.bytes = static_cast<double>(fit.bytes);
     row.note = fit.note;
-    judge(row, *fit.brdf, reference, sphere);
+    judge(row, *fit.brdf, reference, kept);
   } catch (const std::runtime_error& error) {
     fail(error);
   } catch (const std::logic_error& error) {
@@ -120,8 +133,8 @@ double reciprocity_error(const Brdf& brdf) {
 ModelComparison compare_models(const ContenderData& data, std::span<const Contender> contenders,
                                const std::filesystem::path& folder,
                                const std::function<void(const std::string&)>& progress) {
-  const std::filesystem::path kept = folder / data.table->name;
-  make_folder(kept);
+  const std::filesystem::path place = folder / data.table->name;
+  make_folder(place);
   Reference reference(data.table);
   ModelComparison result;
   for (std::size_t n = 0; n < contenders.size(); ++n) {
@@ -130,22 +143,32 @@ ModelComparison compare_models(const ContenderData& data, std::span<const Conten
       progress(data.table->name + ": " + contender.name() + " (" + std::to_string(n + 1) + " of " +
                std::to_string(contenders.size()) + ")");
     }
-    const std::filesystem::path row_file = kept / (contender.name() + ".json");
-    const std::filesystem::path sphere_file = kept / (contender.name() + ".exr");
-    Image sphere;
+    const std::filesystem::path row_file = place / (contender.name() + ".json");
+    const std::filesystem::path sphere_file = place / (contender.name() + ".exr");
+    const std::filesystem::path curves_file = place / (contender.name() + ".curves.json");
+    Kept kept;
     if (std::filesystem::exists(row_file)) {
       result.rows.push_back(model_row_from_json(read_file(row_file), row_file.string()));
-      if (result.rows.back().error.empty()) sphere = read_exr(sphere_file);
+      if (result.rows.back().error.empty()) kept = {read_exr(sphere_file), kept_text(curves_file)};
     } else {
-      result.rows.push_back(fit_and_judge(data, contender, reference, sphere));
-      if (result.rows.back().error.empty()) write_exr(sphere_file, sphere);
+      result.rows.push_back(fit_and_judge(data, contender, reference, kept));
+      if (result.rows.back().error.empty()) {
+        write_exr(sphere_file, kept.sphere);
+        write_file(curves_file, kept.curves);
+      }
       write_file(row_file, to_json(result.rows.back()));  // the last, so that a row there is a row finished
     }
-    result.spheres.push_back(std::move(sphere));
+    result.spheres.push_back(std::move(kept.sphere));
+    result.curves.push_back(std::move(kept.curves));
   }
-  const std::filesystem::path reference_file = kept / "reference.exr";
+  const std::filesystem::path reference_file = place / "reference.exr";
+  const std::filesystem::path reference_curves_file = place / "reference.curves.json";
   if (!std::filesystem::exists(reference_file)) write_exr(reference_file, reference.view().sphere);
+  if (!std::filesystem::exists(reference_curves_file)) {
+    write_file(reference_curves_file, curves_json(TableBrdf(data.table), reference.view()));
+  }
   result.reference = read_exr(reference_file);
+  result.reference_curves = read_file(reference_curves_file);
   return result;
 }
 

@@ -44,13 +44,16 @@ struct ModelRow {
 [[nodiscard]] double reciprocity_error(const Brdf& brdf);
 
 struct ModelComparison {
-  std::vector<ModelRow> rows;  ///< in the order of the contenders
-  Image reference;             ///< the sphere of the table
-  std::vector<Image> spheres;  ///< those of the rows; empty where there is no model
+  std::vector<ModelRow> rows;       ///< in the order of the contenders
+  Image reference;                  ///< the sphere of the table
+  std::vector<Image> spheres;       ///< those of the rows; empty where there is no model
+  std::string reference_curves;     ///< curves_json of the table
+  std::vector<std::string> curves;  ///< and of the rows; empty where there is no model
 };
 
-/// Fits and judges each contender and keeps what is finished in FOLDER/MATERIAL/NAME.json with NAME.exr, its sphere:
-/// what is there already is read instead, so that an interrupted comparison goes on where it was.
+/// Fits and judges each contender and keeps what is finished in FOLDER/MATERIAL/NAME.json with NAME.exr, its sphere,
+/// and NAME.curves.json, its curves_json: what is there already is read instead, so that an interrupted comparison goes
+/// on where it was.
 /// @param progress called with what is being done, for a person to read.
 /// @throws FileError for a folder that cannot be written or a row in it that is damaged, naming it.
 [[nodiscard]] ModelComparison compare_models(const ContenderData& data, std::span<const Contender> contenders,

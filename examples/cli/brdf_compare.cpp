@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "brdf/study/efficiency.hpp"
+#include "brdf/study/report.hpp"
 #include "brdf/study/results.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/brdf_compare_models.hpp"
@@ -31,6 +32,17 @@ void write_results(const std::filesystem::path& folder, const std::vector<brdf::
   write_file(folder / "results.json", to_json(rows));
   write_file(folder / "results.csv", to_csv(rows));
   write_file(folder / "results.md", to_markdown(rows));
+}
+
+void write_report(const std::filesystem::path& folder, const std::vector<brdf::CompareRow>& rows,
+                  const std::vector<brdf::Comparison>& comparisons) {
+  std::vector<brdf::ReportMaterial> materials;
+  for (const brdf::Comparison& comparison : comparisons) {
+    const brdf::CompareRow& first = comparison.rows.front();
+    materials.push_back({first.material, first.provenance, comparison.reference, comparison.reference_curves,
+                         comparison.spheres, comparison.curves});
+  }
+  write_file(folder / "report.html", brdf::report_page(to_json(rows), materials));
 }
 
 /// In refined mode the largest structure of the ladder within --max-bytes, for every family.
@@ -75,6 +87,7 @@ void run(const Options& options, bool json) {
     const auto sheets = brdf::write_sphere_sheets(comparisons, options.folder);
     files.insert(files.end(), sheets.begin(), sheets.end());
   }
+  write_report(options.folder, rows, comparisons);
   if (json) {
     std::cout << to_json(rows);
     return;
@@ -85,7 +98,7 @@ void run(const Options& options, bool json) {
   }
   std::cout << "Relative standard deviation of one sample in a white furnace, by theta_o in degrees:\n\n"
             << efficiency_markdown(samplers) << '\n';
-  for (const char* name : {"results.json", "results.csv", "results.md", "efficiency.csv"}) {
+  for (const char* name : {"results.json", "results.csv", "results.md", "efficiency.csv", "report.html"}) {
     files.push_back(std::filesystem::path(options.folder) / name);
   }
   for (const auto& file : files) std::cout << file.string() << '\n';

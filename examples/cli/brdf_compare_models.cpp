@@ -6,6 +6,7 @@
 #include "brdf/analytic/not_computable.hpp"
 #include "brdf/analytic/registry.hpp"
 #include "brdf/study/model_comparison.hpp"
+#include "brdf/study/report.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/material.hpp"
@@ -53,6 +54,17 @@ std::string not_compared(bool all) {
          "the factors and the editing of materials within the set. |\n";
 }
 
+void write_report(const std::filesystem::path& folder, const std::vector<brdf::ModelRow>& rows,
+                  const std::vector<brdf::ModelComparison>& comparisons) {
+  std::vector<brdf::ReportMaterial> materials;
+  for (const brdf::ModelComparison& comparison : comparisons) {
+    const brdf::ModelRow& first = comparison.rows.front();
+    materials.push_back({first.material, first.provenance, comparison.reference, comparison.reference_curves,
+                         comparison.spheres, comparison.curves});
+  }
+  write_file(folder / "report.html", brdf::report_page(to_json(rows), materials));
+}
+
 }  // namespace
 
 void compare_models(const ModelCompareOptions& options, bool json) {
@@ -63,17 +75,20 @@ void compare_models(const ModelCompareOptions& options, bool json) {
   const std::filesystem::path folder = options.folder;
   const StepLine steps;
   std::vector<brdf::ModelRow> rows;
+  std::vector<brdf::ModelComparison> comparisons;
   std::vector<std::filesystem::path> files;
   for (std::size_t n = 0; n < tables.size(); ++n) {
     const Tables others = without(tables, n);
-    const brdf::ModelComparison comparison = brdf::compare_models({.table = tables[n], .others = others}, contenders,
-                                                                  folder, [&](const auto& what) { steps.show(what); });
+    comparisons.push_back(brdf::compare_models({.table = tables[n], .others = others}, contenders, folder,
+                                               [&](const auto& what) { steps.show(what); }));
+    const brdf::ModelComparison& comparison = comparisons.back();
     rows.insert(rows.end(), comparison.rows.begin(), comparison.rows.end());
     files.push_back(brdf::write_model_sheet(comparison, folder));
     write_file(folder / "models.json", to_json(rows));
     write_file(folder / "models.csv", to_csv(rows));
     write_file(folder / "models.md", to_markdown(rows) + "\n" + summary_markdown(rows) + "\n" + not_compared(all));
   }
+  write_report(folder, rows, comparisons);
   if (json) {
     std::cout << to_json(rows);
     return;
@@ -82,7 +97,7 @@ void compare_models(const ModelCompareOptions& options, bool json) {
   for (const brdf::ModelRow& row : rows) {
     if (!row.error.empty()) std::cout << row.material << ", " << row.model << ": " << row.error << '\n';
   }
-  for (const char* name : {"models.json", "models.csv", "models.md"}) files.push_back(folder / name);
+  for (const char* name : {"models.json", "models.csv", "models.md", "report.html"}) files.push_back(folder / name);
   for (const auto& file : files) {
     if (!file.empty()) std::cout << file.string() << '\n';
   }

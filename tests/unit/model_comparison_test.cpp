@@ -61,6 +61,10 @@ TEST_F(ModelComparisonTest, JudgesKeepsAndGoesOn) {
   EXPECT_EQ(none.error, "too little data");
   EXPECT_TRUE(std::isnan(none.log1p_mae));
   EXPECT_TRUE(comparison.spheres[2].rgb.empty());
+  ASSERT_EQ(comparison.curves.size(), 3U);
+  EXPECT_NE(comparison.curves[0], comparison.curves[1]);
+  EXPECT_NE(comparison.reference_curves, "");
+  EXPECT_EQ(comparison.curves[2], "");
   EXPECT_EQ(comparison.spheres[0].width, comparison.reference.width);
   const auto sheet = write_model_sheet(comparison, folder_);
   EXPECT_GT(std::filesystem::file_size(sheet), 1000U);

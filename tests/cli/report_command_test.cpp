@@ -1,0 +1,75 @@
+/// `sklar brdf compare`: report.html, as text and in a browser.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "copula/file.hpp"
+#include "tests/cli/run_command.hpp"
+
+namespace sklar::cli {
+namespace {
+
+constexpr double kSameSphere = 0.01;  // mean difference of displayed values, of 1
+
+struct Visit {
+  std::string page;     ///< after its scripts
+  std::string console;  ///< what they complained of
+};
+
+class Report : public CommandTest {
+ protected:
+  static bool has_browser() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
+
+  [[nodiscard]] Visit visit(const std::string& name) const {
+    const std::string command = "cd '" + folder_.string() +
+                                "' && chromium --headless=new --no-sandbox --use-angle=swiftshader "
+                                "--enable-unsafe-swiftshader --user-data-dir=profile --virtual-time-budget=20000 "
+                                "--enable-logging=stderr --v=0 --dump-dom 'file://" +
+                                (folder_ / "work" / name).string() + "' >page 2>log; grep CONSOLE log >console";
+    (void)std::system(command.c_str());
+    return {read_file(folder_ / "page"), read_file(folder_ / "console")};
+  }
+};
+
+/// The value of an attribute where it stands first.
+std::string attribute(const std::string& page, const std::string& name) {
+  const std::size_t at = page.find(name + "=\"");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + name.size() + 2;
+  return page.substr(begin, page.find('"', begin) - begin);
+}
+
+TEST_F(Report, IsWrittenByBothComparisons) {
+  for (const std::string options :
+       {"--families independence --slices 1 --method tau", "--models lambert --budgets 1024"}) {
+    const Result result = run("brdf compare --out out " + options);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("out/report.html\n"), std::string::npos) << result.out;
+    const std::string page = read("out/report.html");
+    const std::string begin = "<script type=\"application/json\" id=\"data\">";
+    const std::size_t at = page.find(begin) + begin.size();
+    const auto data = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+    ASSERT_EQ(data["rows"].size(), 1U);
+    EXPECT_GT(data["rows"][0]["log1p_mae"], 0);
+    EXPECT_EQ(data["rows"][0]["curves"]["lobes"].size(), data["axes"]["lobe_theta_i"].size());
+    EXPECT_EQ(data["materials"][0]["curves"]["lobes"].size(), data["axes"]["lobe_theta_i"].size());
+  }
+}
+
+TEST_F(Report, RunsInABrowserAndDrawsTheModel) {
+  if (!has_browser()) GTEST_SKIP() << "no chromium in the path";
+  const Result result = run("brdf compare --mode refined --max-bytes 600 --evaluations 40 --families frank --out out");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Visit visited = visit("out/report.html");
+  EXPECT_EQ(visited.console, "");
+  EXPECT_NE(visited.page.find("refined · frank"), std::string::npos);
+  const std::string difference = attribute(visited.page, "data-difference");
+  ASSERT_NE(difference, "") << "the live sphere was not drawn";
+  EXPECT_LT(std::stod(difference), kSameSphere);
+  EXPECT_GT(std::stod(difference), 0);  // two evaluations, not one picture
+}
+
+}  // namespace
+}  // namespace sklar::cli
