@@ -324,6 +324,8 @@ TEST_F(BrdfCommand, CompareTakesModelsOfEveryKind) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("| analytic | lambert |"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("out/models_synthetic.png"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("out/report.html\n"), std::string::npos) << result.out;
+  EXPECT_NE(read("out/report.html").find("\"model\":\"lambert\""), std::string::npos);
   const auto document = nlohmann::json::parse(read("out/models.json"));
   ASSERT_EQ(document["rows"].size(), 1U);
   EXPECT_GT(document["rows"][0]["log1p_mae"], 0);
@@ -352,7 +354,7 @@ TEST_F(BrdfCommand, ComparePrintsTheTableAndThePaths) {
   const auto document = nlohmann::json::parse(read("out/results.json"));
   EXPECT_EQ(document["rows"][0]["family"], "independence");
   for (const std::string name : {"synthetic_spheres.png", "synthetic_margins.png", "synthetic_joint.png",
-                                 "synthetic_albedo.png", "results.csv"}) {
+                                 "synthetic_albedo.png", "results.csv", "report.html"}) {
     EXPECT_NE(result.out.find("out/" + name + "\n"), std::string::npos) << result.out;
     EXPECT_NE(read("out/" + name), "") << name;
   }

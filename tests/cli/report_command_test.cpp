@@ -41,27 +41,20 @@ std::string attribute(const std::string& page, const std::string& name) {
   return page.substr(begin, page.find('"', begin) - begin);
 }
 
-TEST_F(Report, IsWrittenByBothComparisons) {
-  for (const std::string options :
-       {"--families independence --slices 1 --method tau", "--models lambert --budgets 1024"}) {
-    const Result result = run("brdf compare --out out " + options);
-    ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_NE(result.out.find("out/report.html\n"), std::string::npos) << result.out;
-    const std::string page = read("out/report.html");
-    const std::string begin = "<script type=\"application/json\" id=\"data\">";
-    const std::size_t at = page.find(begin) + begin.size();
-    const auto data = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
-    ASSERT_EQ(data["rows"].size(), 1U);
-    EXPECT_GT(data["rows"][0]["log1p_mae"], 0);
-    EXPECT_EQ(data["rows"][0]["curves"]["lobes"].size(), data["axes"]["lobe_theta_i"].size());
-    EXPECT_EQ(data["materials"][0]["curves"]["lobes"].size(), data["axes"]["lobe_theta_i"].size());
-  }
+nlohmann::json data_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t at = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
 }
 
 TEST_F(Report, RunsInABrowserAndDrawsTheModel) {
-  if (!has_browser()) GTEST_SKIP() << "no chromium in the path";
   const Result result = run("brdf compare --mode refined --max-bytes 600 --evaluations 40 --families frank --out out");
   ASSERT_EQ(result.status, 0) << result.err;
+  const auto data = data_of(read("out/report.html"));
+  ASSERT_EQ(data["rows"].size(), 1U);
+  EXPECT_EQ(data["rows"][0]["curves"]["lobes"].size(), data["axes"]["lobe_theta_i"].size());
+  EXPECT_EQ(data["materials"][0]["curves"]["lobes"].size(), data["axes"]["lobe_theta_i"].size());
+  if (!has_browser()) GTEST_SKIP() << "no chromium in the path: the page is not opened";
   const Visit visited = visit("out/report.html");
   EXPECT_EQ(visited.console, "");
   EXPECT_NE(visited.page.find("refined · frank"), std::string::npos);

@@ -59,11 +59,15 @@ function draw_copula() {
   element('copula-caption').textContent = `${text} Contours at ${kLevels.join(', ')}; the thick one is 1, independence.`;
 }
 
-const place_text = ({theta_d, component}) => `θd ${theta_d}°, component ${component}`;
+function place_text({theta_d, component}) {
+  const several = copula_row().curves.copulas.some((copula) => copula.component !== component);
+  return `θd = ${theta_d}°${several ? `, component ${component}` : ''}`;
+}
 
 function fill_copula_places() {
-  const places = copula_row().curves.copulas.map((copula, n) => [String(n), place_text(copula)]);
-  fill_select(element('copula-place'), places, '0');
+  const {copulas} = copula_row().curves;
+  const strongest = copulas.reduce((best, copula, n) => (Math.abs(copula.tau) > Math.abs(copulas[best].tau) ? n : best), 0);
+  fill_select(element('copula-place'), copulas.map((copula, n) => [String(n), place_text(copula)]), String(strongest));
   draw_copula();
 }
 
