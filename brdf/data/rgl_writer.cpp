@@ -22,7 +22,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr ImageBlend kOnly{{0, 0, 0}};
 constexpr double kHorizon = 89.9 * kPi / 180;  // of what has a limit at the horizon and no value, the value here
 constexpr double kLeastCosine = 1e-4;          // of the warp: a row of it without mass has no inverse
-constexpr double kEverywhere = 0.05;           // the constant share of ndf
+constexpr double kEverywhere = 0.01;           // the constant share of ndf
 constexpr double kSpacing = 1.5;               // slices lie closer toward the horizon, where reflectance changes most
 
 /// Position of node k of n in the unit interval.

@@ -36,7 +36,7 @@ struct RglWriteOptions {
 /// Writes f_r; negative values count as 0. The same call gives the same bytes, on any number of threads of oneTBB.
 ///
 /// `ndf` is the mean luminance of f_r at a half vector, by cos_i cos_o 4 cos(theta_d) dwd over the pairs above the
-/// horizon, times cos(theta_m), and a constant twentieth, so that the importance map covers every direction; `vndf` and
+/// horizon, times cos(theta_m), and a constant hundredth, so that the importance map covers every direction; `vndf` and
 /// `sigma` follow from it, and S at a node is exact.
 ///
 /// Read back as the format says, the mean relative error of f_r cos over theta_i up to 83 degrees is 0.0034 for a

@@ -289,7 +289,7 @@ TEST_F(BrdfCommand, ConvertWritesAModelAsSource) {
   write("bright.json", bright.dump());
   const Result limited = run("brdf convert bright.json bright.brdf");
   EXPECT_EQ(limited.status, 0);
-  EXPECT_TRUE(limited.err.starts_with("note: bright.json has a directional albedo of 1.")) << limited.err;
+  EXPECT_TRUE(limited.out.starts_with("largest directional albedo 1.")) << limited.out;
 }
 
 TEST_F(BrdfCommand, FitChoosesTheModelByTheBudget) {
