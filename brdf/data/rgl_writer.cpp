@@ -23,6 +23,7 @@ constexpr ImageBlend kOnly{{0, 0, 0}};
 constexpr double kHorizon = 89.9 * kPi / 180;  // of what has a limit at the horizon and no value, the value here
 constexpr double kLeastCosine = 1e-4;          // of the warp: a row of it without mass has no inverse
 constexpr double kEverywhere = 0.01;           // the constant share of ndf
+constexpr double kFacets = 0.3;                // the share of vndf that is D max(0, wi.m), of light everywhere
 constexpr double kSpacing = 1.5;               // slices lie closer toward the horizon, where reflectance changes most
 
 /// Position of node k of n in the unit interval.
@@ -136,7 +137,6 @@ class Writer {
  public:
   Writer(const Brdf& brdf, bool isotropic, const RglLayout& layout)
       : brdf_(brdf),
-        isotropic_(isotropic),
         layout_(layout),
         normals_(normals_of(brdf, isotropic, layout)),
         ndf_(normals_.stack(normals_.ndf)),
@@ -195,40 +195,55 @@ class Writer {
   }
 
   void fill(double theta_i, double phi_i, const SliceImages& images) const {
-    const Vec3 wi = spherical_direction(theta_i, phi_i);
-    fill_vndf(wi, images.vndf);
-    fill_values(wi, {std::sqrt(2 * theta_i / kPi), (phi_i + kPi) / (2 * kPi)}, images);
+    const Known known{spherical_direction(theta_i, phi_i), spherical_direction(std::min(theta_i, kHorizon), phi_i)};
+    const Shares shares = fill_vndf(known, images.vndf);
+    const double area = 4 * sigma_.at({std::sqrt(2 * theta_i / kPi), (phi_i + kPi) / (2 * kPi)}, kOnly);
+    fill_values(known, area, shares, images);
   }
 
-  void fill_vndf(const Vec3& wi, std::span<float> vndf) const {
+  /// The known direction, and where it is on the horizon one just above it.
+  struct Known {
+    Vec3 wi, raised;
+  };
+
+  /// vndf is facets times D plus light times the luminance of f_r cos(theta_o), by what dwo counts in the unit square.
+  struct Shares {
+    double facets, light;
+  };
+
+  /// f_r cos(theta_o) mirrored at m; 0 below the horizon.
+  [[nodiscard]] Rgb mirrored(const Known& known, const Vec3& m) const {
+    const Vec3 wo = 2 * known.wi.dot(m) * m - known.wi;
+    return wo.z() > 0 ? Rgb(brdf_.eval(wo, known.raised).max(0.0) * wo.z()) : Rgb(Rgb::Zero());
+  }
+
+  Shares fill_vndf(const Known& known, std::span<float> vndf) const {
     const int rows = layout_.warp_rows, columns = layout_.warp_columns;
-    std::vector<double> values;
-    double total = 0;
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        const Vec2 u(unit_node(x, columns), unit_node(y, rows));
-        const double cosine = std::max(wi.dot(direction_of(u)), kLeastCosine);
-        values.push_back(ndf_.at(u, kOnly) * cosine * std::sin(theta_of(u.x())) * u.x());
-        total += values.back();
-      }
+    Eigen::ArrayXd light(vndf.size()), facets(vndf.size());
+    for (Eigen::Index n = 0; n < light.size(); ++n) {
+      const Vec2 u(unit_node(static_cast<int>(n) % columns, columns), unit_node(static_cast<int>(n) / columns, rows));
+      const Vec3 m = direction_of(u);
+      const double measure = std::max(known.wi.dot(m), kLeastCosine) * std::sin(theta_of(u.x())) * u.x();
+      light[n] = measure * file_luminance(mirrored(known, m));
+      facets[n] = measure * ndf_.at(u, kOnly);
     }
-    for (std::size_t n = 0; n < values.size(); ++n) vndf[n] = static_cast<float>(values[n] / total);
+    const double all = light.sum();
+    const Shares shares{(all > 0 ? kFacets : 1) / facets.sum(), all > 0 ? (1 - kFacets) / all : 0};
+    Eigen::Map<Eigen::ArrayXf>(vndf.data(), light.size()) =
+        (shares.facets * facets + shares.light * light).cast<float>();
+    return shares;
   }
 
-  /// @param u_wi of wi in the unit square.
-  void fill_values(const Vec3& wi, const Vec2& u_wi, const SliceImages& images) const {
+  /// @param area 4 sigma of the known direction.
+  void fill_values(const Known& known, double area, const Shares& shares, const SliceImages& images) const {
     const BilinearWarp warp(1, layout_.warp_rows, layout_.warp_columns, images.vndf);
-    const Vec3 raised = spherical_direction(std::min(polar_angle(wi), kHorizon), phi_of(u_wi.y()));
-    const double area = 4 * sigma_.at(u_wi, kOnly);
     const int n = layout_.nodes;
     for (int k = 0; k < n * n; ++k) {
       const Vec2 u = warp.sample({unit_node(k % n, n), unit_node(k / n, n)}, 0);
-      const Vec3 m = direction_of(u);
-      const Vec3 wo = 2 * wi.dot(m) * m - wi;
-      Rgb value = Rgb::Zero();
-      if (wo.z() > 0) value = brdf_.eval(wo, raised).max(0.0) * (wo.z() * area / ndf_.at(u, kOnly));
+      const Rgb light = mirrored(known, direction_of(u)), value = light * (area / ndf_.at(u, kOnly));
       for (int c = 0; c < 3; ++c) images.rgb[static_cast<std::size_t>(c * n * n + k)] = static_cast<float>(value[c]);
-      images.luminance[static_cast<std::size_t>(k)] = static_cast<float>(file_luminance(value));
+      const double wanted = file_luminance(light), drawn = shares.facets * ndf_.at(u, kOnly) + shares.light * wanted;
+      images.luminance[static_cast<std::size_t>(k)] = static_cast<float>(wanted / drawn);
     }
     const auto black = [](float value) { return value == 0; };
     if (std::all_of(images.luminance.begin(), images.luminance.end(), black)) {
@@ -255,7 +270,6 @@ class Writer {
   }
 
   const Brdf& brdf_;
-  bool isotropic_;
   RglLayout layout_;
   Normals normals_;
   BilinearStack ndf_, sigma_;

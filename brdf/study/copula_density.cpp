@@ -25,7 +25,10 @@ double five_digits(double value) {
 Json entry(const FamilyInfo& family, const Theta& theta, double theta_d, int component) {
   if (!family.admits(2, theta)) return nullptr;
   Eigen::ArrayXXd u(kNodes * kNodes, 2);
-  for (int n = 0; n < u.rows(); ++n) u.row(n) << (n / kNodes + 0.5) / kNodes, (n % kNodes + 0.5) / kNodes;
+  for (int n = 0; n < u.rows(); ++n) {
+    const int row = n / kNodes, column = n % kNodes;
+    u.row(n) << (row + 0.5) / kNodes, (column + 0.5) / kNodes;
+  }
   const Eigen::ArrayXd density = family.make(2, theta)->log_pdf(u).exp();
   Json rows = Json::array();
   for (int i = 0; i < kNodes; ++i) {

@@ -171,8 +171,8 @@ class Reflected {
     const HemisphereOptions nodes = azimuths_ == 1 ? Views<RefinedBrdf>::nodes : Views<AnisotropicModel>::nodes;
     shares_.assign(static_cast<std::size_t>(kDegrees * azimuths_), RgbRows::Zero(kDegrees, 3));
     tbb::parallel_for(0, kDegrees * azimuths_, [&](int view) {
-      const Quadrature q =
-          quadrature_at({view / azimuths_ * kDegree, view % azimuths_ * (360 * kDegree / azimuths_)}, nodes);
+      const int degree_o = view / azimuths_, azimuth = view % azimuths_;
+      const Quadrature q = quadrature_at({degree_o * kDegree, azimuth * (360 * kDegree / azimuths_)}, nodes);
       const RgbRows light = brdf.eval(q.wo, q.wi).colwise() * q.weight;
       RgbRows& shares = shares_[static_cast<std::size_t>(view)];
       for (Eigen::Index row = 0; row < light.rows(); ++row) {
