@@ -1,6 +1,9 @@
 #include "brdf/code/cpp_header.hpp"
 
-#include <regex>
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <string_view>
 
 #include "brdf/code/source_text.hpp"
 
@@ -70,10 +73,29 @@ inline Sample sample(vec3 wo, vec2 uniforms) { return detail::sklar_sample(wo, u
 
 )";
 
-/// Text of GLSL as C++: numbers are double, functions inline.
+bool in_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// A line of GLSL as C++: float is double, and a line that begins a function, the only one with a bracket and without =
+/// that is not indented, begins with inline.
+std::string line_as_cpp(std::string line) {
+  constexpr std::string_view kFloat = "float", kDouble = "double";
+  for (std::size_t at = line.find(kFloat); at != std::string::npos; at = line.find(kFloat, at + 1)) {
+    const std::size_t end = at + kFloat.size();
+    const bool whole = (at == 0 || !in_name(line[at - 1])) && (end == line.size() || !in_name(line[end]));
+    if (whole) line.replace(at, kFloat.size(), kDouble);
+  }
+  const bool begins_function = !line.empty() && std::islower(static_cast<unsigned char>(line.front())) != 0 &&
+                               line.find('(') != std::string::npos && line.find('=') == std::string::npos;
+  return begins_function ? "inline " + line : line;
+}
+
 std::string as_cpp(const std::string& text) {
-  const std::string in_double = std::regex_replace(text, std::regex("\\bfloat\\b"), "double");
-  return std::regex_replace(in_double, std::regex("(^|\n)([a-z]\\w* sklar_\\w+\\([^;{]*\\{\n)"), "$1inline $2");
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += line_as_cpp(line) + "\n";
+  return result;
 }
 
 }  // namespace
@@ -85,7 +107,10 @@ std::string to_cpp_header(const ModelCode& code, const std::string& material) {
 }
 
 std::string cpp_namespace(const std::string& material) {
-  return "sklar_" + std::regex_replace(material, std::regex("[^A-Za-z0-9_]"), "_");
+  std::string name = "sklar_" + material;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !in_name(c); }, '_');
+  return name;
 }
 
 }  // namespace sklar::brdf
