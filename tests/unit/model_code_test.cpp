@@ -37,6 +37,7 @@ constexpr Tolerance kSingle{.eval = 2e-5, .pdf = 1e-4, .direction = 2e-5, .weigh
 std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structure,
                                                 const std::vector<std::string>& names, std::uint64_t seed) {
   std::vector<FamilyInfo> families;
+  families.reserve(names.size());
   for (const std::string& name : names) families.push_back(families::resolve(name));
   const RefinedLayout layout(structure, coupled(families));
   std::vector<double> x(static_cast<std::size_t>(layout.size()));
@@ -249,10 +250,10 @@ TEST_F(ModelCode, IsGlslOfAllVersionsFrom130) {
       "\nin vec3 wo, wi;\nout vec3 value;\nvoid main() {\n"
       "  sklar_Sample s = sklar_sample(wo, wi.xy);\n  value = sklar_eval(wo, wi) + sklar_pdf(wo, wi) * s.weight;\n}\n";
   for (const Named& named : models()) {
-    const std::string code = to_glsl(named.code(), named.name);
-    EXPECT_EQ(objections(folder_, "#version 130\n" + code + main, "frag"), "");
-    EXPECT_EQ(objections(folder_, "#version 410\n" + code + main, "vert"), "");
-    EXPECT_EQ(objections(folder_, "#version 300 es\n" + precision + code + main, "frag"), "");
+    const std::string code = to_glsl(named.code(), named.name).append(main);
+    EXPECT_EQ(objections(folder_, std::string("#version 130\n").append(code), "frag"), "");
+    EXPECT_EQ(objections(folder_, std::string("#version 410\n").append(code), "vert"), "");
+    EXPECT_EQ(objections(folder_, std::string("#version 300 es\n").append(precision).append(code), "frag"), "");
   }
   const std::string wrong = to_glsl({"vec3 sklar_eval(vec3 wo, vec3 wi) { return 1; }", {1}}, "wrong");
   EXPECT_NE(objections(folder_, "#version 130\n" + wrong + main, "frag"), "");
@@ -289,8 +290,8 @@ TEST_F(ModelCode, IsAShaderOfBrdfExplorer) {
   for (const Named& named : models()) {
     const std::string shader = shader_of(to_brdf_explorer(evaluation_code(*named.model), "line\n::end shader"));
     EXPECT_NE(shader.find("vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)"), std::string::npos);
-    EXPECT_EQ(objections(folder_, "#version 410\n" + shader + main, "vert"), "");
-    EXPECT_EQ(objections(folder_, "#version 130\n" + shader + main, "frag"), "");
+    EXPECT_EQ(objections(folder_, std::string("#version 410\n").append(shader).append(main), "vert"), "");
+    EXPECT_EQ(objections(folder_, std::string("#version 130\n").append(shader).append(main), "frag"), "");
   }
 }
 

@@ -254,7 +254,7 @@ TEST(BilinearWarp, InvertsTheIntegralOfTheDensity) {
   constexpr int kRows = 4;
   constexpr int kColumns = 5;
   Rng rng(6);
-  std::vector<float> density(2 * kRows * kColumns);
+  std::vector<float> density(std::size_t{2} * kRows * kColumns);
   for (float& value : density) value = static_cast<float>(uniform(rng));
   const BilinearStack image(2, kRows, kColumns, density);
   const BilinearWarp warp(2, kRows, kColumns, density);
@@ -330,7 +330,8 @@ TEST(RglFiles, MeasuredMaterials) {
     Rgb albedo = Rgb::Zero();
     constexpr int kSteps = 100;
     for (int k = 0; k < kSteps * kSteps; ++k) {
-      const Vec2 w((k / kSteps + 0.5) / kSteps, (k % kSteps + 0.5) / kSteps);
+      const int row = k / kSteps, column = k % kSteps;
+      const Vec2 w((row + 0.5) / kSteps, (column + 0.5) / kSteps);
       const Vec3 wi = spherical_direction(std::asin(std::sqrt(w.x())), 2 * kPi * w.y());
       albedo += brdf.eval(wo, wi) * (kPi / (kSteps * kSteps));
     }

@@ -215,7 +215,7 @@ TEST_F(RglWriter, TensorFilesComeBack) {
 TEST(BilinearWarp, SamplesWhatItInverts) {
   constexpr double kRounding = 1e-12;
   Rng rng(8);
-  std::vector<float> density(2 * 5 * 7);
+  std::vector<float> density(std::size_t{2} * 5 * 7);
   for (float& value : density) value = static_cast<float>(uniform(rng));
   const BilinearWarp warp(2, 5, 7, density);
   for (int n = 0; n < 2000; ++n) {
