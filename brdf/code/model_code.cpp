@@ -8,6 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "brdf/code/shader_files.hpp"
 #include "brdf/code/source_text.hpp"
 #include "brdf/model/coupling.hpp"
 #include "brdf/model/lattice.hpp"
@@ -15,13 +16,6 @@
 
 namespace sklar::brdf {
 namespace {
-
-constexpr const char* kEvaluation =
-#include "brdf/code/evaluation.inc"
-    ;
-constexpr const char* kSampling =
-#include "brdf/code/sampling.inc"
-    ;
 
 /// Coefficients of the colours along half in the text, where a constant is a spline of equal ones.
 int colour_rows(const RefinedStructure& structure) {
@@ -154,7 +148,7 @@ ModelCode evaluation_code(const RefinedBrdf& model) {
   table("colours", &Values::add_colours);
   table("powers", &Values::add_powers);
   table("copulas", &Values::add_copulas);
-  return {text + "\n" + kEvaluation, values.take()};
+  return {text.append("\n").append(code::evaluation()), values.take()};
 }
 
 ModelCode sampling_code(const RefinedBrdf& model, const ConditionalSampler& sampler) {
@@ -163,7 +157,7 @@ ModelCode sampling_code(const RefinedBrdf& model, const ConditionalSampler& samp
   const auto size = [&] { return static_cast<int>(code.values.size()); };
   code.text += "\n" + node_text(nodes.front()) + constant_text("cosines", size());
   code.values.insert(code.values.end(), kOutgoingCosines.begin(), kOutgoingCosines.end());
-  code.text += constant_text("tables", size()) + "\n" + kSampling;
+  code.text.append(constant_text("tables", size())).append("\n").append(code::sampling());
   for (const SamplerNode& node : nodes) {
     const auto numbers = std::bit_cast<std::array<float, kNodeSize>>(node);
     code.values.insert(code.values.end(), numbers.begin(), numbers.end());

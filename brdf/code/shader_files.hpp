@@ -1,0 +1,11 @@
+#pragma once
+/// The shader texts of brdf/code/ as they are embedded in the library.
+
+#include <string_view>
+
+namespace sklar::brdf::code {
+
+[[nodiscard]] std::string_view evaluation();
+[[nodiscard]] std::string_view sampling();
+
+}  // namespace sklar::brdf::code
