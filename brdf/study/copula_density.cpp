@@ -16,10 +16,7 @@ using json::Json;
 
 constexpr int kNodes = 24;  ///< a side
 constexpr std::size_t kGreen = 1;
-
-double five_digits(double value) {
-  return std::stod(printed("%.5g", value));
-}
+constexpr int kDigits = 5;
 
 /// An entry; null where two coordinates alone do not have the family.
 Json entry(const FamilyInfo& family, const Theta& theta, double theta_d, int component) {
@@ -33,10 +30,13 @@ Json entry(const FamilyInfo& family, const Theta& theta, double theta_d, int com
   Json rows = Json::array();
   for (int i = 0; i < kNodes; ++i) {
     Json row = Json::array();
-    for (int j = 0; j < kNodes; ++j) row.push_back(five_digits(density(i * kNodes + j)));
+    for (int j = 0; j < kNodes; ++j) row.push_back(to_digits(kDigits, density(i * kNodes + j)));
     rows.push_back(std::move(row));
   }
-  return {{"theta_d", theta_d}, {"component", component}, {"tau", five_digits(family.tau(theta))}, {"density", rows}};
+  return {{"theta_d", theta_d},
+          {"component", component},
+          {"tau", to_digits(kDigits, family.tau(theta))},
+          {"density", rows}};
 }
 
 Json of_paper(const PaperBrdf& brdf) {

@@ -17,15 +17,12 @@ using json::Json;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kGreen = 1;
+constexpr int kDigits = 4;
 constexpr int kMostIncident = 85, kIncidentStep = 5, kMostOutgoing = 89;  // degrees
-
-double four_digits(double value) {
-  return std::stod(printed("%.4g", value));
-}
 
 Json rounded(const Eigen::Ref<const Eigen::ArrayXd>& values) {
   Json array = Json::array();
-  for (const double value : values) array.push_back(four_digits(value));
+  for (const double value : values) array.push_back(to_digits(kDigits, value));
   return array;
 }
 
@@ -52,7 +49,7 @@ const Brdf& without_sampler(const Brdf& brdf) {
 template <class Centre>
 Json centres(int count, const Centre& centre) {
   Json array = Json::array();
-  for (int n = 0; n < count; ++n) array.push_back(four_digits(centre(n) / kDegree));
+  for (int n = 0; n < count; ++n) array.push_back(to_digits(kDigits, centre(n) / kDegree));
   return array;
 }
 

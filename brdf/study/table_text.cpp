@@ -13,6 +13,10 @@ std::string printed(const char* format, double value) {
   return std::isfinite(value) ? buffer : sklar::to_text(value);
 }
 
+double to_digits(int digits, double value) {
+  return std::stod(printed(("%." + std::to_string(digits) + "g").c_str(), value));
+}
+
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
