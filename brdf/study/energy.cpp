@@ -12,6 +12,7 @@
 #include "brdf/model/spline.hpp"
 #include "brdf/model/warp.hpp"
 #include "brdf/render/hemisphere.hpp"
+#include "brdf/sampling/drawn_by.hpp"
 #include "copula/error.hpp"
 
 namespace sklar::brdf {
@@ -208,15 +209,9 @@ class Dimmed final : public Brdf {
   [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const override {
     return brdf_->eval(wo, wi) * (at(wo) * at(wi));
   }
-  [[nodiscard]] double pdf(const Vec3& wo, const Vec3& wi) const override { return brdf_->pdf(wo, wi); }
   [[nodiscard]] Traits traits() const override { return brdf_->traits(); }
   [[nodiscard]] std::size_t bytes() const override {
     return brdf_->bytes() + static_cast<std::size_t>(factor_.size()) * sizeof(double);
-  }
-
- protected:
-  [[nodiscard]] Vec3 sample_direction(const Vec3& wo, const Vec2& uniforms) const override {
-    return brdf_->sample(wo, uniforms).wi;
   }
 
  private:
@@ -244,7 +239,7 @@ Limited<Brdf> limit_albedo(const BrdfPtr& brdf, double limit) {
     albedo = reflected.albedo(k);
   }
   k *= limit / albedo.max(limit);
-  result.brdf = std::make_shared<const Dimmed>(brdf, k);
+  result.brdf = std::make_shared<const DrawnBy>(std::make_shared<const Dimmed>(brdf, k), brdf);
   result.albedo_after = reflected.albedo(k).maxCoeff();
   result.lowest_factor = k.minCoeff() * k.minCoeff();
   return result;
