@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "brdf/study/efficiency.hpp"
-#include "brdf/study/report.hpp"
 #include "brdf/study/results.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/brdf_compare_models.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/fit_options.hpp"
 #include "examples/cli/material.hpp"
+#include "examples/cli/report.hpp"
 #include "examples/cli/text.hpp"
 
 namespace sklar::cli {
@@ -32,17 +32,6 @@ void write_results(const std::filesystem::path& folder, const std::vector<brdf::
   write_file(folder / "results.json", to_json(rows));
   write_file(folder / "results.csv", to_csv(rows));
   write_file(folder / "results.md", to_markdown(rows));
-}
-
-void write_report(const std::filesystem::path& folder, const std::vector<brdf::CompareRow>& rows,
-                  const std::vector<brdf::Comparison>& comparisons) {
-  std::vector<brdf::ReportMaterial> materials;
-  for (const brdf::Comparison& comparison : comparisons) {
-    const brdf::CompareRow& first = comparison.rows.front();
-    materials.push_back({first.material, first.provenance, comparison.reference, comparison.reference_curves,
-                         comparison.spheres, comparison.curves});
-  }
-  write_file(folder / "report.html", brdf::report_page(to_json(rows), materials));
 }
 
 /// In refined mode the largest structure of the ladder within --max-bytes, for every family.

@@ -6,10 +6,10 @@
 #include "brdf/analytic/not_computable.hpp"
 #include "brdf/analytic/registry.hpp"
 #include "brdf/study/model_comparison.hpp"
-#include "brdf/study/report.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/material.hpp"
+#include "examples/cli/report.hpp"
 #include "examples/cli/text.hpp"
 
 namespace sklar::cli {
@@ -52,17 +52,6 @@ std::string not_compared(bool all) {
          "separable_svd above, and its tensor form over a set of materials; what they add is the relighting of a scene "
          "by "
          "the factors and the editing of materials within the set. |\n";
-}
-
-void write_report(const std::filesystem::path& folder, const std::vector<brdf::ModelRow>& rows,
-                  const std::vector<brdf::ModelComparison>& comparisons) {
-  std::vector<brdf::ReportMaterial> materials;
-  for (const brdf::ModelComparison& comparison : comparisons) {
-    const brdf::ModelRow& first = comparison.rows.front();
-    materials.push_back({first.material, first.provenance, comparison.reference, comparison.reference_curves,
-                         comparison.spheres, comparison.curves});
-  }
-  write_file(folder / "report.html", brdf::report_page(to_json(rows), materials));
 }
 
 }  // namespace
