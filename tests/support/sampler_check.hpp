@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <functional>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "brdf/brdf.hpp"
 #include "brdf/geometry/frame.hpp"
@@ -122,6 +124,26 @@ inline brdf::Vec3 uniform_hemisphere(Rng& rng) {
   const double phi = 2 * std::numbers::pi * uniform(rng);
   const double radius = std::sqrt(1 - z * z);
   return {radius * std::cos(phi), radius * std::sin(phi), z};
+}
+
+/// wo at which samplers are tested, from the normal to grazing.
+inline const std::vector<brdf::Vec3>& sampled_directions() {
+  static const std::vector<brdf::Vec3> kList = [] {
+    constexpr double kDegree = std::numbers::pi / 180;
+    std::vector<brdf::Vec3> result;
+    for (const auto& [theta, phi] : {std::pair(0.0, 0.0),
+                                     {3.0, 200.0},
+                                     {20.0, 0.0},
+                                     {45.0, 100.0},
+                                     {62.0, 30.0},
+                                     {75.0, 300.0},
+                                     {85.0, 170.0},
+                                     {89.0, 45.0}}) {
+      result.push_back(brdf::spherical_direction(theta * kDegree, phi * kDegree));
+    }
+    return result;
+  }();
+  return kList;
 }
 
 /// weight * pdf == f cos; nothing above the horizon has density 0, nothing below has weight.

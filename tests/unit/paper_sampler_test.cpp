@@ -18,21 +18,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-std::vector<Vec3> given_directions() {
-  std::vector<Vec3> result;
-  for (const auto& [theta, phi] : {std::pair(0.0, 0.0),
-                                   {3.0, 200.0},
-                                   {20.0, 0.0},
-                                   {45.0, 100.0},
-                                   {62.0, 30.0},
-                                   {75.0, 300.0},
-                                   {85.0, 170.0},
-                                   {89.0, 45.0}}) {
-    result.push_back(spherical_direction(theta * kDegree, phi * kDegree));
-  }
-  return result;
-}
-
 // The paper's sampler: draws by the closed-form inverses follow the density, in three coordinates (a quadratic) and in
 // four (a quadratic, then a cubic).
 TEST(PaperSampler, DrawsFollowTheDensity) {
@@ -40,9 +25,9 @@ TEST(PaperSampler, DrawsFollowTheDensity) {
   const FamilyInfo& frank = families::find("frank");
   for (const PaperCoordinates coordinates : {PaperCoordinates::isotropic, PaperCoordinates::full}) {
     const PaperSampledBrdf brdf(material, frank, PaperTarget::reflected_light, coordinates);
-    const auto tests = static_cast<int>(2 * given_directions().size());
-    for (std::size_t i = 0; i < given_directions().size(); i += coordinates == PaperCoordinates::full ? 3 : 1) {
-      test::check_sampler(brdf, given_directions()[i], test::seed_of_this_test(),
+    const auto tests = static_cast<int>(2 * test::sampled_directions().size());
+    for (std::size_t i = 0; i < test::sampled_directions().size(); i += coordinates == PaperCoordinates::full ? 3 : 1) {
+      test::check_sampler(brdf, test::sampled_directions()[i], test::seed_of_this_test(),
                           {.draws = test::sampler_draws() / 50,
                            .theta_cells = 9,
                            .phi_cells = 24,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/analytic/synthetic.hpp"
 #include "brdf/data/tabulate.hpp"
 #include "brdf/model/model_binary.hpp"
 #include "brdf/model/model_io.hpp"
@@ -21,32 +20,19 @@
 #include "families/registry.hpp"
 #include "tests/support/gradient_check.hpp"
 #include "tests/support/instruction_sets.hpp"
+#include "tests/support/refined_cases.hpp"
 
 namespace sklar::brdf {
 namespace {
 
-constexpr double kSinglePrecision = 2e-5;  // relative, of eval against the value in double
-
-RefinedStructure small() {
-  return {.components = 2,
-          .half = 8,
-          .difference = 6,
-          .colour_half = 4,
-          .colour_difference = 4,
-          .azimuth = 2,
-          .azimuth_difference = 4,
-          .coupling_difference = 4};
-}
+using test::builtin_table;
+using test::kSinglePrecision;
+using test::small_structure;
 
 RefinedFit quick_fit(const MeasuredTable& table, RefinedFitOptions options = {}) {
-  options.structure = small();
+  options.structure = small_structure();
   options.evaluations = 40;
   return fit_refined(table, options);
-}
-
-const MeasuredTable& builtin() {
-  static const MeasuredTable kTable = builtin_material();
-  return kTable;
 }
 
 Directions random_hemisphere(Eigen::Index count, std::uint64_t seed) {
@@ -84,20 +70,21 @@ TEST(Warp, IsReciprocalToTheBitAndInTheUnitCube) {
 TEST(RefinedProblem, GradientIsThatOfTheObjective) {
   for (const char* name : {"independence", "frank", "clayton@180", "gumbel"}) {
     const FamilyInfo& family = families::resolve(name);
-    const RefinedProblem problem(small(), {family, family}, refined_cells(builtin(), CellMeasure::per_cell, small()));
+    const RefinedProblem problem(small_structure(), {family, family},
+                                 refined_cells(builtin_table(), CellMeasure::per_cell, small_structure()));
     test::expect_gradient_of_objective(problem, 19, 0, name);
   }
 }
 
 TEST(RefinedModel, BeatsThePapersModelInATwentiethOfItsSize) {
-  const RefinedFit fit = fit_refined(builtin(), {.structure = small(), .evaluations = 200});
+  const RefinedFit fit = fit_refined(builtin_table(), {.structure = small_structure(), .evaluations = 200});
   EXPECT_LT(fit.objective, fit.start);
   EXPECT_LT(fit.brdf->bytes(), 1000U);
-  EXPECT_LT(log1p_mae(builtin(), *fit.brdf), 0.007);  // the paper's, 20 KB: 0.0083
+  EXPECT_LT(log1p_mae(builtin_table(), *fit.brdf), 0.007);  // the paper's, 20 KB: 0.0083
 }
 
 TEST(RefinedModel, IsReciprocalPositiveFiniteAndTheSameInABatchInEveryInstructionSet) {
-  const RefinedFit fit = quick_fit(builtin(), {.families = {families::find("frank")}});
+  const RefinedFit fit = quick_fit(builtin_table(), {.families = {families::find("frank")}});
   const RefinedBrdf& brdf = *fit.brdf;
   Directions wo = random_hemisphere(500, 4), wi = random_hemisphere(500, 5);
   wo.row(0) << 0, 0, 1;
@@ -126,26 +113,26 @@ TEST(RefinedModel, IsReciprocalPositiveFiniteAndTheSameInABatchInEveryInstructio
 }
 
 TEST(RefinedModel, DoesNotDependOnTheNumberOfThreads) {
-  const RefinedFit many = quick_fit(builtin(), {.families = {families::find("frank")}});
+  const RefinedFit many = quick_fit(builtin_table(), {.families = {families::find("frank")}});
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const RefinedFit single = quick_fit(builtin(), {.families = {families::find("frank")}});
+  const RefinedFit single = quick_fit(builtin_table(), {.families = {families::find("frank")}});
   EXPECT_EQ(many.brdf->coefficients().levels, single.brdf->coefficients().levels);
 }
 
 TEST(RefinedModel, CouplesByAnyFamilyThatTauDetermines) {
   for (const char* name : {"frank", "clayton", "gumbel@90", "joe", "amh"}) {
-    const RefinedFit fit = quick_fit(builtin(), {.families = {families::resolve(name)}});
+    const RefinedFit fit = quick_fit(builtin_table(), {.families = {families::resolve(name)}});
     for (int k = 0; k < 2; ++k) EXPECT_LE(std::abs(fit.brdf->tau(k, 0.5)), 0.81) << name;
     EXPECT_TRUE(std::isfinite(fit.objective)) << name;
   }
   const std::string bb1 = SKLAR_EXAMPLE_FAMILIES "/bb1.json";
-  EXPECT_THROW((void)quick_fit(builtin(), {.families = {families::resolve(bb1)}}), std::invalid_argument);
+  EXPECT_THROW((void)quick_fit(builtin_table(), {.families = {families::resolve(bb1)}}), std::invalid_argument);
 }
 
 TEST(RefinedModel, ChoosesTheFamilyOfAComponent) {
-  RefinedStructure structure = small();
+  RefinedStructure structure = small_structure();
   structure.components = 1;
-  const RefinedFit margins = fit_refined(builtin(), {.structure = structure, .evaluations = 20});
+  const RefinedFit margins = fit_refined(builtin_table(), {.structure = structure, .evaluations = 20});
   constexpr double kTau = 0.4;
   const auto coupled_by = [&](const char* name) {
     const FamilyInfo& family = families::find(name);
@@ -168,19 +155,20 @@ TEST(RefinedModel, ChoosesTheFamilyOfAComponent) {
   const RefinedFit fit = refit_refined(table, options, coupled_by("frank"));
   EXPECT_LT(log1p_mae(table, *fit.brdf), 0.1 * log1p_mae(table, *coupled_by("frank").brdf));
   EXPECT_NEAR(fit.brdf->tau(0, 0.5), kTau, 0.02);
-  EXPECT_THROW((void)refit_refined(table, {.structure = small()}, margins), std::invalid_argument);
-  EXPECT_THROW((void)choose_families(table, {.structure = small()}, margins, candidates), std::invalid_argument);
+  EXPECT_THROW((void)refit_refined(table, {.structure = small_structure()}, margins), std::invalid_argument);
+  EXPECT_THROW((void)choose_families(table, {.structure = small_structure()}, margins, candidates),
+               std::invalid_argument);
 }
 
 TEST(RefinedModel, FitsDirtyData) {
   const auto fits = [](const char* what, auto&& damage) {
-    MeasuredTable table = builtin();
+    MeasuredTable table = builtin_table();
     damage(table);
     const RefinedFit fit = quick_fit(table);
     EXPECT_LT(fit.objective, fit.start) << what;
     const RgbRows values = fit.brdf->eval(random_hemisphere(200, 6), random_hemisphere(200, 7));
     EXPECT_TRUE(values.isFinite().all() && (values >= 0).all()) << what;
-    return log1p_mae(builtin(), *fit.brdf);
+    return log1p_mae(builtin_table(), *fit.brdf);
   };
   const auto mask = [](MeasuredTable& table, auto&& masked) {
     for (int n = 0; n < Grid::cells; ++n) {
@@ -209,18 +197,18 @@ TEST(RefinedModel, FitsDirtyData) {
 }
 
 TEST(RefinedModel, FollowsTinyValues) {
-  MeasuredTable table = builtin();
+  MeasuredTable table = builtin_table();
   for (auto& plane : table.values) {
     for (double& value : plane) value *= 1e-12;
   }
   const RefinedFit tiny = quick_fit(table);
   const Vec3 wo(0, 0.6, 0.8), wi(0.6, 0, 0.8);
-  const Rgb ratio = tiny.brdf->eval(wo, wi) / quick_fit(builtin()).brdf->eval(wo, wi);
+  const Rgb ratio = tiny.brdf->eval(wo, wi) / quick_fit(builtin_table()).brdf->eval(wo, wi);
   EXPECT_NEAR(ratio[1] * 1e12, 1, 0.2);
 }
 
 TEST(RefinedModel, SurvivesItsFileBitForBit) {
-  const RefinedFit fit = quick_fit(builtin(), {.families = {families::find("frank")}, .bits = 12});
+  const RefinedFit fit = quick_fit(builtin_table(), {.families = {families::find("frank")}, .bits = 12});
   const StoredBrdf stored{.material = "synthetic", .provenance = Provenance::synthetic, .model = fit.brdf};
   const StoredBrdf read = parse_brdf(to_json(stored), "model.json");
   EXPECT_EQ(to_json(read), to_json(stored));
@@ -233,8 +221,8 @@ TEST(RefinedModel, SurvivesItsFileBitForBit) {
 
 TEST(RefinedModel, SurvivesItsBinaryFileBitForBit) {
   for (const int bits : {6, 11, 16}) {
-    const RefinedFit fit =
-        quick_fit(builtin(), {.families = {families::find("frank"), families::find("independence")}, .bits = bits});
+    const RefinedFit fit = quick_fit(
+        builtin_table(), {.families = {families::find("frank"), families::find("independence")}, .bits = bits});
     const StoredBrdf stored{.material = "a \"name\"", .provenance = Provenance::measured, .model = fit.brdf};
     const std::string bytes = to_binary(stored);
     const std::string name = "a \"name\"", families = "frankindependence";
@@ -245,7 +233,8 @@ TEST(RefinedModel, SurvivesItsBinaryFileBitForBit) {
 }
 
 TEST(RefinedModel, RefusesBrokenBinaryFiles) {
-  const StoredBrdf stored{.material = "m", .provenance = Provenance::synthetic, .model = quick_fit(builtin()).brdf};
+  const StoredBrdf stored{
+      .material = "m", .provenance = Provenance::synthetic, .model = quick_fit(builtin_table()).brdf};
   const std::string bytes = to_binary(stored);
   for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 20) {
     EXPECT_THROW((void)parse_binary(bytes.substr(0, length), "model.sklar"), FileError) << length;
@@ -264,22 +253,22 @@ TEST(RefinedModel, RefusesBrokenBinaryFiles) {
 }
 
 TEST(RefinedModel, FewerBitsCostLittleError) {
-  const double fine = log1p_mae(builtin(), *quick_fit(builtin(), {.bits = 16}).brdf);
-  const RefinedFit coarse = quick_fit(builtin(), {.bits = 12});
-  EXPECT_LT(log1p_mae(builtin(), *coarse.brdf), 1.1 * fine);
-  EXPECT_LT(coarse.brdf->bytes(), 0.8 * static_cast<double>(quick_fit(builtin(), {.bits = 16}).brdf->bytes()));
+  const double fine = log1p_mae(builtin_table(), *quick_fit(builtin_table(), {.bits = 16}).brdf);
+  const RefinedFit coarse = quick_fit(builtin_table(), {.bits = 12});
+  EXPECT_LT(log1p_mae(builtin_table(), *coarse.brdf), 1.1 * fine);
+  EXPECT_LT(coarse.brdf->bytes(), 0.8 * static_cast<double>(quick_fit(builtin_table(), {.bits = 16}).brdf->bytes()));
 }
 
 TEST(RefinedModel, RefusesBadArguments) {
   RefinedFitOptions options;
   options.structure.components = 9;
-  EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  EXPECT_THROW((void)fit_refined(builtin_table(), options), std::invalid_argument);
   options.structure = {.width = 0};
-  EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  EXPECT_THROW((void)fit_refined(builtin_table(), options), std::invalid_argument);
   options = {.families = {families::find("frank"), families::find("frank")}};
-  EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+  EXPECT_THROW((void)fit_refined(builtin_table(), options), std::invalid_argument);
   EXPECT_THROW((void)fit_refined(MeasuredTable{}), std::invalid_argument);
-  EXPECT_THROW((void)RefinedBrdf(small(), {}, {}), std::invalid_argument);
+  EXPECT_THROW((void)RefinedBrdf(small_structure(), {}, {}), std::invalid_argument);
 }
 
 const BudgetSearch& quick_search() {
@@ -291,7 +280,7 @@ const BudgetSearch& quick_search() {
 TEST(Budget, TakesTheSmallestModelThatIsGoodEnough) {
   const RefinedFitOptions options{.evaluations = 40};
   constexpr double kEnough = 0.02;
-  const BudgetChoice choice = choose_model(builtin(), {.max_error = kEnough}, quick_search(), options);
+  const BudgetChoice choice = choose_model(builtin_table(), {.max_error = kEnough}, quick_search(), options);
   EXPECT_LE(choice.front[choice.chosen].figures.log1p_mae, kEnough);
   for (std::size_t i = 0; i < choice.chosen; ++i) EXPECT_GT(choice.front[i].figures.log1p_mae, kEnough);
   EXPECT_NE(to_markdown(choice).find("chosen"), std::string::npos);
@@ -300,7 +289,7 @@ TEST(Budget, TakesTheSmallestModelThatIsGoodEnough) {
 TEST(Budget, TakesTheMostExactModelThatIsSmallEnough) {
   constexpr double kMost = 800;
   const BudgetChoice choice =
-      choose_model(builtin(), {.max_bytes = kMost}, quick_search(), RefinedFitOptions{.evaluations = 40});
+      choose_model(builtin_table(), {.max_bytes = kMost}, quick_search(), RefinedFitOptions{.evaluations = 40});
   EXPECT_LE(static_cast<double>(choice.front[choice.chosen].figures.bytes), kMost);
   for (std::size_t i = 1; i < choice.front.size(); ++i) {
     EXPECT_GE(choice.front[i].figures.bytes, choice.front[i - 1].figures.bytes);
@@ -315,7 +304,7 @@ TEST(Budget, TakesTheMostExactModelThatIsSmallEnough) {
 }
 
 TEST(Budget, FitsOneStructureWithoutASearch) {
-  const BudgetChoice choice = fit_largest(builtin(), 600, quick_search(), RefinedFitOptions{.evaluations = 8});
+  const BudgetChoice choice = fit_largest(builtin_table(), 600, quick_search(), RefinedFitOptions{.evaluations = 8});
   ASSERT_EQ(choice.front.size(), 1U);
   EXPECT_EQ(choice.front[0].figures.bytes, stored_bytes(largest_structure(600, 8), 8, false));
 }
@@ -324,17 +313,17 @@ TEST(Budget, SaysWhatIsTheBestWhereNoModelMeetsIt) {
   const RefinedFitOptions options{.evaluations = 8};
   const BudgetSearch search{.families = {families::find("independence")}, .bits = {12}};
   try {
-    (void)choose_model(builtin(), {.max_error = 1e-9, .max_bytes = 600}, search, options);
+    (void)choose_model(builtin_table(), {.max_error = 1e-9, .max_bytes = 600}, search, options);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("no model meets the budget; the most exact one has"), std::string::npos);
   }
-  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = 10}, search, options), std::runtime_error);
-  EXPECT_THROW((void)choose_model(builtin(), {.max_bytes = -1}, search, options), std::invalid_argument);
+  EXPECT_THROW((void)choose_model(builtin_table(), {.max_bytes = 10}, search, options), std::runtime_error);
+  EXPECT_THROW((void)choose_model(builtin_table(), {.max_bytes = -1}, search, options), std::invalid_argument);
 }
 
 TEST(Energy, LowersOnlyWhatSendsBackTooMuch) {
-  const RefinedFit fit = quick_fit(builtin());
+  const RefinedFit fit = quick_fit(builtin_table());
   const double largest = directional_albedo(*fit.brdf).albedo.maxCoeff();
   const Limited<RefinedBrdf> same = limit_albedo(fit.brdf, 1.01 * largest);
   EXPECT_EQ(same.brdf, fit.brdf);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "brdf/analytic/synthetic.hpp"
 #include "brdf/geometry/frame.hpp"
 #include "brdf/model/model_binary.hpp"
 #include "brdf/model/model_io.hpp"
@@ -11,27 +10,14 @@
 #include "brdf/model/spline.hpp"
 #include "copula/random.hpp"
 #include "tests/support/message.hpp"
+#include "tests/support/refined_cases.hpp"
 
 namespace sklar::brdf {
 namespace {
 
-constexpr double kSinglePrecision = 2e-5;  // relative, of eval against the value in double
-
-RefinedStructure small() {
-  return {.components = 2,
-          .half = 8,
-          .difference = 6,
-          .colour_half = 4,
-          .colour_difference = 4,
-          .azimuth = 2,
-          .azimuth_difference = 4,
-          .coupling_difference = 4};
-}
-
-const MeasuredTable& builtin() {
-  static const MeasuredTable kTable = builtin_material();
-  return kTable;
-}
+using test::builtin_table;
+using test::kSinglePrecision;
+using test::small_structure;
 
 /// Directions all over the hemisphere, none of them twice.
 std::vector<std::pair<Vec3, Vec3>> pairs() {
@@ -116,37 +102,37 @@ std::shared_ptr<const CellImportance> towards_grazing() {
 }
 
 TEST(RefinedRanges, SpendAllCoefficientsOnThePartThatCounts) {
-  RefinedFitOptions options{.structure = small(), .evaluations = 200, .importance = towards_grazing()};
+  RefinedFitOptions options{.structure = small_structure(), .evaluations = 200, .importance = towards_grazing()};
   options.structure.difference = 4;
-  const RefinedFit whole = fit_refined(builtin(), options);
+  const RefinedFit whole = fit_refined(builtin_table(), options);
   options.structure.difference_range = {30, 64};
-  const RefinedFit part = fit_refined(builtin(), options);
+  const RefinedFit part = fit_refined(builtin_table(), options);
   EXPECT_LT(part.objective, 0.8 * whole.objective);
   EXPECT_EQ(part.brdf->bytes(), whole.brdf->bytes() + 4);
 }
 
 TEST(RefinedRanges, AreTheSameInTheKernelAndInFiles) {
-  RefinedFitOptions options{.structure = small(), .evaluations = 40};
+  RefinedFitOptions options{.structure = small_structure(), .evaluations = 40};
   options.structure.half_range = {8, 60};
   options.structure.difference_range = {3, 40};
-  expect_the_same_in_kernel_and_files(fit_refined(builtin(), options).brdf);
+  expect_the_same_in_kernel_and_files(fit_refined(builtin_table(), options).brdf);
 }
 
 TEST(RefinedRanges, MustBeWithinTheAxis) {
-  RefinedFitOptions options{.structure = small()};
+  RefinedFitOptions options{.structure = small_structure()};
   for (const AxisRange range : {AxisRange{-1, 5}, AxisRange{0, 65}, AxisRange{7, 7}}) {
     options.structure.half_range = range;
-    EXPECT_THROW((void)fit_refined(builtin(), options), std::invalid_argument);
+    EXPECT_THROW((void)fit_refined(builtin_table(), options), std::invalid_argument);
   }
 }
 
 TEST(RefinedColour, CanBeConstantAlongAnAxis) {
-  RefinedFitOptions options{.structure = small(), .evaluations = 40};
+  RefinedFitOptions options{.structure = small_structure(), .evaluations = 40};
   options.structure.components = 1;
   options.structure.colour_difference = 1;
-  expect_the_same_in_kernel_and_files(fit_refined(builtin(), options).brdf);
+  expect_the_same_in_kernel_and_files(fit_refined(builtin_table(), options).brdf);
   options.structure.colour_half = 1;
-  const auto brdf = fit_refined(builtin(), options).brdf;
+  const auto brdf = fit_refined(builtin_table(), options).brdf;
   expect_the_same_in_kernel_and_files(brdf);
   const Rgb at_normal = brdf->eval(Vec3(0, 0, 1), Vec3(0, 0, 1));
   const Rgb ratios = at_normal / at_normal[1];
@@ -158,9 +144,9 @@ TEST(RefinedColour, CanBeConstantAlongAnAxis) {
 }
 
 TEST(RefinedColour, HasNoSplineOfTwoCoefficients) {
-  RefinedFitOptions options{.structure = small()};
+  RefinedFitOptions options{.structure = small_structure()};
   options.structure.colour_half = 2;
-  EXPECT_EQ(test::message_of<std::invalid_argument>([&] { (void)fit_refined(builtin(), options); }),
+  EXPECT_EQ(test::message_of<std::invalid_argument>([&] { (void)fit_refined(builtin_table(), options); }),
             "refined model: colour_half is 2, allowed are 1 and 4 to 128");
 }
 

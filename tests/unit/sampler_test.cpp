@@ -75,32 +75,14 @@ const SampledBrdf& sampled(std::size_t kind) {
   return *made[kind];
 }
 
-const std::vector<Vec3>& given_directions() {
-  static const auto kList = [] {
-    std::vector<Vec3> result;
-    for (const auto& [theta, phi] : {std::pair(0.0, 0.0),
-                                     {3.0, 200.0},
-                                     {20.0, 0.0},
-                                     {45.0, 100.0},
-                                     {62.0, 30.0},
-                                     {75.0, 300.0},
-                                     {85.0, 170.0},
-                                     {89.0, 45.0}}) {
-      result.push_back(spherical_direction(theta * kDegree, phi * kDegree));
-    }
-    return result;
-  }();
-  return kList;
-}
-
 class SampledKind : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(All, SampledKind, testing::Range(std::size_t{0}, kinds().size()),
                          [](const auto& test) { return kinds()[test.param].name; });
 
 // Chi-square against pdf, no draw where it is 0, weights, and albedo by both kinds of draws.
 TEST_P(SampledKind, DrawsFollowTheDensity) {
-  const auto tests = static_cast<int>(kinds().size() * given_directions().size());
-  for (const Vec3& wo : given_directions()) {
+  const auto tests = static_cast<int>(kinds().size() * test::sampled_directions().size());
+  for (const Vec3& wo : test::sampled_directions()) {
     test::check_sampler(sampled(GetParam()), wo, test::seed_of_this_test(),
                         {.draws = test::sampler_draws() / 5,
                          .theta_cells = 16,
