@@ -6,8 +6,8 @@
 namespace sklar {
 
 /// rho = 12 int int C(u,v) du dv - 3 of the first two coordinates, absolute error below 1e-10, by double exponential
-/// quadrature, the inner integral split at v = u and v = 1 - u, where C bends at strong dependence. Takes about 1e5
-/// values of C. Precondition: exchangeable, as Archimedean copulas are. Nelsen (2006), eq. 5.1.15c.
+/// quadrature over v < u, split at v = 1 - u and at the end of the support, where C bends. Takes about 2e4 values of C.
+/// Precondition: exchangeable, as Archimedean copulas are. Nelsen (2006), eq. 5.1.15c.
 [[nodiscard]] double spearman_rho(const Copula& copula);
 
 /// The parameter whose pairs have this rho, the only one as families are ordered by concordance.

@@ -27,6 +27,9 @@ TEST(Spearman, ClosedForms) {
   }
   // Ali-Mikhail-Haq at theta = -1: 33 - 48 log 2, Nelsen (2006), p. 172.
   EXPECT_NEAR(spearman_rho(*families::find("amh").make(2, {-1.0})), 33 - 48 * std::log(2.0), kRho);
+  // Clayton with a bounded support, by quadrature in 20 digits of (u^-theta + v^-theta - 1)^(-1/theta).
+  EXPECT_NEAR(spearman_rho(*families::find("clayton").make(2, {-0.3})), -0.25986034054290760927, kRho);
+  EXPECT_NEAR(spearman_rho(*families::find("clayton").make(2, {-0.8})), -0.79246829989067246605, kRho);
   // Clayton at the lower bound is countermonotone.
   EXPECT_NEAR(spearman_rho(*families::find("clayton").make(2, {-1.0})), -1, kRho);
   EXPECT_NEAR(spearman_rho(*families::find("independence").make(3, {})), 0, kRho);
