@@ -16,7 +16,7 @@ namespace sklar::brdf {
 ///     double pdf(vec3 wo, vec3 wi);
 ///     Sample sample(vec3 wo, vec2 uniforms);
 ///
-/// @param code of sampling_code.
+/// @param code of with_sampler.
 [[nodiscard]] std::string to_cpp_header(const ModelCode& code, const std::string& material);
 
 /// sklar_ and the material, with _ for what may not be in an identifier.

@@ -148,11 +148,10 @@ ModelCode evaluation_code(const RefinedBrdf& model) {
   table("colours", &Values::add_colours);
   table("powers", &Values::add_powers);
   table("copulas", &Values::add_copulas);
-  return {text.append("\n").append(code::evaluation()), values.take()};
+  return {text.append("\n").append(code::common()).append("\n").append(code::refined()), values.take()};
 }
 
-ModelCode sampling_code(const RefinedBrdf& model, const ConditionalSampler& sampler) {
-  ModelCode code = evaluation_code(model);
+ModelCode with_sampler(ModelCode code, const ConditionalSampler& sampler) {
   const std::vector<SamplerNode>& nodes = sampler.tables().nodes;
   const auto size = [&] { return static_cast<int>(code.values.size()); };
   code.text += "\n" + node_text(nodes.front()) + constant_text("cosines", size());

@@ -5,7 +5,9 @@
 
 namespace sklar::brdf::code {
 
-[[nodiscard]] std::string_view evaluation();
+[[nodiscard]] std::string_view anisotropic();
+[[nodiscard]] std::string_view common();
+[[nodiscard]] std::string_view refined();
 [[nodiscard]] std::string_view sampling();
 
 }  // namespace sklar::brdf::code

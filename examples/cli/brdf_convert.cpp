@@ -64,33 +64,40 @@ Json write_bsdf(const Options& options) {
   return json_of(limited);
 }
 
-using Source = std::string (*)(const brdf::RefinedBrdf& model, const std::string& material);
+/// A source of code: evaluation_code of a model, and its sampler where it is asked for.
+using Source = std::string (*)(brdf::ModelCode code, const brdf::BrdfPtr& model, const std::string& material);
 
 Json write_source(const Options& options, Source source) {
   if (!brdf::is_model_path(options.in)) throw FileError(options.in, "written as source are models, .json or .sklar");
   const brdf::StoredBrdf stored = brdf::read_brdf(options.in);
-  const auto* model = std::get_if<std::shared_ptr<const brdf::RefinedBrdf>>(&stored.model);
-  if (model == nullptr) throw FileError(options.in, "written as source are refined models of isotropic materials");
-  const brdf::Limited<brdf::RefinedBrdf> limited = brdf::limit_albedo(*model, options.max_albedo);
-  write_file(options.out, source(*limited.brdf, stored.material));
-  return json_of(limited);
+  return std::visit(
+      [&](const auto& model) -> Json {
+        if constexpr (requires { brdf::evaluation_code(*model); }) {
+          const auto limited = brdf::limit_albedo(model, options.max_albedo);
+          write_file(options.out, source(brdf::evaluation_code(*limited.brdf), limited.brdf, stored.material));
+          return json_of(limited);
+        } else {
+          throw FileError(options.in, "written as source are refined models");
+        }
+      },
+      stored.model);
 }
 
 Json write_glsl(const Options& options) {
-  return write_source(options, [](const brdf::RefinedBrdf& model, const std::string& material) {
-    return to_glsl(sampling_code(model, brdf::ConditionalSampler(model)), material);
+  return write_source(options, [](brdf::ModelCode code, const brdf::BrdfPtr& model, const std::string& material) {
+    return to_glsl(with_sampler(std::move(code), brdf::ConditionalSampler(*model)), material);
   });
 }
 
 Json write_cpp(const Options& options) {
-  return write_source(options, [](const brdf::RefinedBrdf& model, const std::string& material) {
-    return to_cpp_header(sampling_code(model, brdf::ConditionalSampler(model)), material);
+  return write_source(options, [](brdf::ModelCode code, const brdf::BrdfPtr& model, const std::string& material) {
+    return to_cpp_header(with_sampler(std::move(code), brdf::ConditionalSampler(*model)), material);
   });
 }
 
 Json write_explorer(const Options& options) {
-  return write_source(options, [](const brdf::RefinedBrdf& model, const std::string& material) {
-    return to_brdf_explorer(evaluation_code(model), material);
+  return write_source(options, [](brdf::ModelCode code, const brdf::BrdfPtr&, const std::string& material) {
+    return to_brdf_explorer(code, material);
   });
 }
 

@@ -76,6 +76,14 @@ TEST_F(ConvertCommand, ScatteredMeasurementsAreAMaterial) {
   expect_refused("brdf convert shader.brdf out.binary", "line 1: the number of wavelengths must be a number");
 }
 
+TEST_F(ConvertCommand, ConvertWritesAnAnisotropicModelAsSource) {
+  ASSERT_EQ(run("brdf fit synthetic-anisotropic --max-bytes 400 --evaluations 10 -o model.sklar").status, 0);
+  const Result result = run("brdf convert model.sklar model.glsl");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(read("model.glsl").find("vec3 sklar_eval(vec3 wo, vec3 wi)"), std::string::npos);
+  EXPECT_NE(read("model.glsl").find("sklar_masking"), std::string::npos);
+}
+
 TEST_F(ConvertCommand, ConvertWritesAModelAsSource) {
   ASSERT_EQ(run("brdf fit --family independence --max-bytes 600 --evaluations 20 -o model.json").status, 0);
   const std::map<std::string, std::string> parts = {{"model.glsl", "sklar_Sample sklar_sample(vec3 wo, vec2 uniforms)"},

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <regex>
 #include <sstream>
@@ -25,13 +26,14 @@ namespace {
 
 /// How far a text may be from the library: relative but for directions.
 struct Tolerance {
-  double eval;       ///< of RefinedBrdf::at
+  double eval;       ///< of Named::exact
   double pdf;        ///< of ConditionalSampler::pdf, which is exact to 1e-5
   double direction;  ///< of ConditionalSampler::sample_direction
-  double weight;     ///< of f_r cos / pdf at what was drawn; RefinedBrdf::eval is exact to 2e-5
+  double weight;     ///< of f_r cos / pdf at what was drawn, by Brdf::eval
 };
 constexpr Tolerance kTables{.eval = 1e-6, .pdf = 1e-5, .direction = 1e-5, .weight = 3e-5};  // in double but for tables
 constexpr Tolerance kSingle{.eval = 2e-5, .pdf = 1e-4, .direction = 2e-5, .weight = 1e-4};
+constexpr double kAnisotropic = 1e-5;  ///< of AnisotropicModel::eval, added to eval and weight
 
 /// A model with coefficients drawn at random, each copula at tau of about 0.3.
 std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structure,
@@ -56,17 +58,48 @@ std::shared_ptr<const RefinedBrdf> random_model(const RefinedStructure& structur
   return std::make_shared<RefinedBrdf>(structure, families, pack(layout, 16, x));
 }
 
-/// Names of models and models: numbers of components, with and without copulas, on parts of the axes, all degrees.
+std::shared_ptr<const AnisotropicModel> random_model(const AnisotropicStructure& structure, std::uint64_t seed) {
+  const AnisotropicLayout layout(structure);
+  std::vector<double> x(static_cast<std::size_t>(layout.size()));
+  Rng rng(seed);
+  for (int k = 0; k < structure.components; ++k) {
+    for (const AnisotropicPart part : kAnisotropicParts) {
+      for (int i = 0; i < layout.count(part); ++i) {
+        double at = part == AnisotropicPart::shape ? -12.0 * (i % structure.half) / structure.half : 0;
+        if (part == AnisotropicPart::metric && i == 0) at = 3;  // the log of the scale
+        x[static_cast<std::size_t>(layout.first(k, part) + i)] = at + (uniform(rng) - 0.5);
+      }
+    }
+  }
+  return std::make_shared<AnisotropicModel>(structure, pack(layout, 16, x));
+}
+
+/// A model with what the tests compare.
 struct Named {
-  Named(std::string name_, std::shared_ptr<const RefinedBrdf> model_)
-      : name(std::move(name_)), model(std::move(model_)), sampler(*model) {}
-  [[nodiscard]] ModelCode code() const { return sampling_code(*model, sampler); }
+  Named(std::string name_, const std::shared_ptr<const RefinedBrdf>& model)
+      : name(std::move(name_)),
+        brdf(model),
+        evaluation(evaluation_code(*model)),
+        exact([model](const Vec3& wo, const Vec3& wi) { return model->at(coordinates(model->structure(), wo, wi)); }),
+        sampler(*model) {}
+  Named(std::string name_, const std::shared_ptr<const AnisotropicModel>& model)
+      : name(std::move(name_)),
+        brdf(model),
+        evaluation(evaluation_code(*model)),
+        exact([model](const Vec3& wo, const Vec3& wi) { return model->eval(wo, wi); }),
+        rounding(kAnisotropic),
+        sampler(*model) {}
+  [[nodiscard]] ModelCode code() const { return with_sampler(evaluation, sampler); }
 
   std::string name;
-  std::shared_ptr<const RefinedBrdf> model;
+  BrdfPtr brdf;
+  ModelCode evaluation;
+  std::function<Rgb(const Vec3& wo, const Vec3& wi)> exact;  ///< f_r, above the horizon
+  double rounding = 0;                                       ///< of exact and of the model's eval
   ConditionalSampler sampler;
 };
 
+/// Numbers of components, with and without copulas, on parts of the axes, all degrees; anisotropic ones.
 const std::vector<Named>& models() {
   static const std::vector<Named> kModels = [] {
     const RefinedStructure least{.components = 1,
@@ -91,11 +124,37 @@ const std::vector<Named>& models() {
     most.components = kMostComponents;
     most.azimuth = kHighestDegree;
     most.width = 0.5;
+    const AnisotropicStructure tilted{.components = 2,
+                                      .half = 9,
+                                      .difference = 5,
+                                      .colour_half = 6,
+                                      .colour_difference = 0,
+                                      .azimuth = 6,
+                                      .azimuth_difference = 1,
+                                      .masking = 6,
+                                      .masking_harmonics = 1,
+                                      .half_harmonics = 2,
+                                      .half_harmonics_degree = 6,
+                                      .tilted = true};
+    const AnisotropicStructure no_terms{.components = 1,
+                                        .half = 4,
+                                        .difference = 4,
+                                        .colour_half = 0,
+                                        .colour_difference = 0,
+                                        .azimuth = 0,
+                                        .azimuth_difference = 0,
+                                        .masking = 0,
+                                        .masking_harmonics = 0,
+                                        .half_harmonics = 0,
+                                        .half_harmonics_degree = 0};
     return std::vector<Named>{
         {"least", random_model(least, {"independence"}, 1)},
         {"coupled", random_model(three, {"independence", "clayton@90", "frank"}, 2)},
         {"on a part", random_model(part, {"gumbel", "independence"}, 3)},
         {"most", random_model(most, std::vector<std::string>(kMostComponents, "independence"), 4)},
+        {"anisotropic", random_model(AnisotropicStructure{}, 5)},
+        {"tilted", random_model(tilted, 6)},
+        {"no terms", random_model(no_terms, 7)},
     };
   }();
   return kModels;
@@ -187,10 +246,10 @@ class ModelCode : public test::TemporaryFolder {
                  .direction = std::max(worst.direction, error.direction),
                  .weight = std::max(worst.weight, error.weight)};
       }
-      EXPECT_LT(worst.eval, tolerance.eval);
+      EXPECT_LT(worst.eval, tolerance.eval + named.rounding);
       EXPECT_LT(worst.pdf, tolerance.pdf);
       EXPECT_LT(worst.direction, tolerance.direction);
-      EXPECT_LT(worst.weight, tolerance.weight);
+      EXPECT_LT(worst.weight, tolerance.weight + named.rounding);
     }
   }
 
@@ -204,12 +263,11 @@ class ModelCode : public test::TemporaryFolder {
 
   static Tolerance errors(const Named& named, const Vec3& wo, const Vec3& wi, const Vec2& uniforms,
                           const Eigen::Array<double, 1, kNumbers>& row) {
-    const RefinedBrdf& model = *named.model;
     const bool above = wo.z() > 0 && wi.z() > 0;
     const Vec3 drawn(row(4), row(5), row(6));
     const double pdf = named.sampler.pdf(wo, drawn);
-    const Rgb weight = pdf > 0 ? Rgb(model.eval(wo, drawn) * (drawn.z() / pdf)) : Rgb::Zero();
-    return {.eval = relative(row.segment<3>(0), above ? model.at(coordinates(model.structure(), wo, wi)) : Rgb::Zero()),
+    const Rgb weight = pdf > 0 ? Rgb(named.brdf->eval(wo, drawn) * (drawn.z() / pdf)) : Rgb::Zero();
+    return {.eval = relative(row.segment<3>(0), above ? named.exact(wo, wi) : Rgb::Zero()),
             .pdf = std::max(relative(row(3), named.sampler.pdf(wo, wi)), relative(row(7), pdf)),
             .direction = relative((drawn - named.sampler.sample_direction(wo, uniforms)).norm(), 0),
             .weight = relative(row.segment<3>(8), weight)};
@@ -288,7 +346,7 @@ TEST_F(ModelCode, IsAShaderOfBrdfExplorer) {
   const std::string main =
       "in vec3 a, b;\nout vec3 value;\nvoid main() { value = BRDF(a, b, vec3(0,0,1), vec3(1,0,0), vec3(0,1,0)); }\n";
   for (const Named& named : models()) {
-    const std::string shader = shader_of(to_brdf_explorer(evaluation_code(*named.model), "line\n::end shader"));
+    const std::string shader = shader_of(to_brdf_explorer(named.evaluation, "line\n::end shader"));
     EXPECT_NE(shader.find("vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)"), std::string::npos);
     EXPECT_EQ(objections(folder_, std::string("#version 410\n").append(shader).append(main), "vert"), "");
     EXPECT_EQ(objections(folder_, std::string("#version 130\n").append(shader).append(main), "frag"), "");

@@ -2,18 +2,6 @@
 // angles, of one of the azimuth and, where the model has it, of a copula, with colours of its own. Reads its numbers
 // through float sklar_value(int i) only.
 
-// An interval of an axis, and the place in it.
-struct sklar_Between {
-  int low;
-  float share;
-};
-
-// The four coefficients of a cubic spline that act at a place: the first of them and their weights.
-struct sklar_Spline {
-  int first;
-  vec4 weights;
-};
-
 // Where a pair of directions stands: among the coefficients of the densities, among the nodes of the lattice, and at
 // the two nodes of the half angle among the coefficients of the colours.
 struct sklar_Place {
@@ -26,28 +14,6 @@ struct sklar_Place {
   sklar_Between azimuth_node;
   float azimuth;
 };
-
-sklar_Between sklar_between(float position, int intervals) {
-  sklar_Between at;
-  at.low = int(clamp(position, 0.0, float(intervals - 1)));
-  at.share = position - float(at.low);
-  return at;
-}
-
-sklar_Spline sklar_spline(float x, int count) {
-  sklar_Between at = sklar_between(x * float(count - 3), count - 3);
-  float t = at.share, s = 1.0 - t;
-  sklar_Spline spline;
-  spline.first = at.low;
-  spline.weights = vec4(s * s * s, t * t * (3.0 * t - 6.0) + 4.0, s * s * (3.0 * s - 6.0) + 4.0, t * t * t) / 6.0;
-  return spline;
-}
-
-// The sum over the coefficients of a row that begins at `row`.
-float sklar_sum(sklar_Spline at, int row) {
-  int i = row + at.first;
-  return dot(at.weights, vec4(sklar_value(i), sklar_value(i + 1), sklar_value(i + 2), sklar_value(i + 3)));
-}
 
 // The half angle, the difference angle and the azimuth, each as a number in [0,1], algebraic in the components. With
 // h the half vector, v = 1 - cos(theta_h), w the width: (v (1 + w) / (v + w))^(1/4), 1 - sqrt(1 - sin(theta_d)),
@@ -80,10 +46,8 @@ sklar_Place sklar_place(vec3 at) {
 }
 
 float sklar_log_shape(int k, sklar_Place at) {
-  int row = sklar_shape + (k * sklar_difference + at.shape_difference.first) * sklar_half;
-  return dot(at.shape_difference.weights,
-             vec4(sklar_sum(at.shape_half, row), sklar_sum(at.shape_half, row + sklar_half),
-                  sklar_sum(at.shape_half, row + 2 * sklar_half), sklar_sum(at.shape_half, row + 3 * sklar_half)));
+  int table = sklar_shape + k * sklar_difference * sklar_half;
+  return sklar_tensor(table, sklar_half, at.shape_half, at.shape_difference);
 }
 
 // A polynomial without constant term.
