@@ -9,7 +9,6 @@
 #include "brdf/model/coupling.hpp"
 #include "brdf/model/structure_fields.hpp"
 #include "copula/error.hpp"
-#include "families/registry.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -153,10 +152,7 @@ void write_refined(const RefinedBrdf& brdf, Writer& writer) {
 
 std::shared_ptr<const RefinedBrdf> read_refined(Reader& reader, bool on_part) {
   std::vector<FamilyInfo> named;
-  for (int left = reader.number<std::uint8_t>(); left > 0; --left) {
-    const std::string name = reader.text();
-    named.push_back(name.starts_with('{') ? families::from_definition(name, "family") : families::find(name));
-  }
+  for (int left = reader.number<std::uint8_t>(); left > 0; --left) named.push_back(stored_family(reader.text()));
   auto structure = read_counts<RefinedStructure>(reader);
   if (on_part) {
     for_each_range(structure, [&](const char*, AxisRange& range) {

@@ -8,7 +8,6 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
-#include "families/registry.hpp"
 
 namespace sklar::brdf {
 
@@ -51,9 +50,10 @@ Value choice(const Json& json, const char* name, std::initializer_list<Value> va
 }
 
 FamilyInfo family_from(const Json& family) {
-  if (family.is_object()) return families::from_definition(family.dump(), "family");
-  if (!family.is_string()) throw std::invalid_argument("a family must be a name or a definition");
-  return families::find(family.get<std::string>());
+  if (!family.is_object() && !family.is_string()) {
+    throw std::invalid_argument("a family must be a name or a definition");
+  }
+  return stored_family(family.is_object() ? family.dump() : family.get<std::string>());
 }
 
 Json family_to_json(const std::string& name, const std::string& definition) {

@@ -1,10 +1,15 @@
 #pragma once
-/// The counts of a model's structure by name, in the order in which they are stored.
+/// What both forms of model files share: the counts of a structure by name, in the order in which they are stored, and
+/// how a family is named.
 
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include "brdf/model/anisotropic_structure.hpp"
 #include "brdf/model/refined_structure.hpp"
+#include "copula/error.hpp"
+#include "families/registry.hpp"
 
 namespace sklar::brdf {
 
@@ -33,6 +38,15 @@ void for_each_count(Structure& structure, const Action& action) {
   action("colour_difference", structure.colour_difference);
   action("azimuth", structure.azimuth);
   action("azimuth_difference", structure.azimuth_difference);
+}
+
+/// The family of that name, or of a whole definition. @throws std::invalid_argument, for the reader to name the file.
+inline FamilyInfo stored_family(const std::string& name) {
+  try {
+    return name.starts_with('{') ? families::from_definition(name, "family") : families::find(name);
+  } catch (const FileError& error) {
+    throw std::invalid_argument(error.what());
+  }
 }
 
 }  // namespace sklar::brdf
