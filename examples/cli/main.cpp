@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <thread>
 #include <utility>
 
 #include "examples/cli/command.hpp"
+#include "examples/cli/help_text.hpp"
+#include "examples/cli/text.hpp"
 
 namespace sklar::cli {
 
@@ -23,11 +26,26 @@ void finish_command(CLI::App& command, Common& common, std::function<void()> job
 
 namespace {
 
+/// A flag that prints what text makes of the whole tree of commands and ends the program.
+void add_page(CLI::App& app, const char* flag, const char* description, std::string (*text)(const CLI::App&)) {
+  app.add_flag_callback(
+      flag,
+      [&app, text] {
+        write_output("", text(app));
+        throw CLI::Success();
+      },
+      description);
+}
+
 /// Runs the job of the chosen subcommand. @return the exit status. @throws CLI::ParseError for wrong usage.
 int run(int argc, char** argv) {
   Common common;
   CLI::App app{"Copulas, and reflectance models built on them", "sklar"};
   app.set_version_flag("--version", SKLAR_VERSION);
+  add_page(app, "--manual", "Print the manual page, for man, and exit", manual_page);
+  add_page(app, "--bash-completion", "Print what completes arguments in bash and exit", bash_completion);
+  app.formatter(std::make_shared<HelpText>());
+  app.footer("Exit status: 0, 1 with one line on standard error that says what is wrong, 2 for wrong usage.");
   app.require_subcommand(1);
   add_families(app, common);
   CLI::App* copula = app.add_subcommand("copula", "evaluate, sample and fit copulas")->require_subcommand(1);
