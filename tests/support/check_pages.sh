@@ -8,7 +8,7 @@
 #   <!-- file: PATH -->   the next block is that file
 #   <!-- from: PATH -->   the next block is lines of that file, without regard to how far they are indented
 #
-# Blocks of C++ and JSON have one of the two. Commands that take minutes or a file that is not in the repository stand
+# Blocks of C++ and JSON have one of the two; links lead to files that there are. Commands that take minutes or a file that is not in the repository stand
 # in indented blocks, which are not run; that their options exist is checked. --write puts files and output that differ
 # into the pages.
 set -eu

@@ -105,6 +105,18 @@ function check_options(text, words, command, i) {
   }
 }
 
+# The files that a line links to are there.
+function check_links(text, folder, path) {
+  folder = FILENAME
+  sub(/[^\/]*$/, "", folder)
+  while (match(text, /\]\([^)]+\)/)) {
+    path = substr(text, RSTART + 2, RLENGTH - 3)
+    text = substr(text, RSTART + RLENGTH)
+    sub(/#.*/, "", path)
+    if (path != "" && path !~ /:/ && system("test -e '" folder path "'")) complain("no file " path)
+  }
+}
+
 BEGIN { kNumber = "-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?" }
 
 inside && /^```/ {
@@ -117,9 +129,9 @@ inside {
   block = block $0 "\n"
   next
 }
+{ opened = NR }
 /^```/ {
   inside = 1
-  opened = NR
   language = substr($1, 4)
   argument = $2
   block = ""
@@ -128,9 +140,9 @@ inside {
   marker = substr($2, 1, 4)
   path = $3
 }
-/^    (build\/)?sklar / {
-  opened = NR
-  check_options($0)
+/^    (build\/)?sklar / { check_options($0) }
+{
+  check_links($0)
+  print
 }
-{ print }
 END { exit bad }
