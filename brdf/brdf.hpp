@@ -10,6 +10,7 @@
 
 namespace sklar::brdf {
 
+/// Two uniforms, a direction, and a colour (red, green, blue).
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Rgb = Eigen::Array3d;
@@ -32,6 +33,7 @@ struct Draw {
   double pdf;  ///< of wi given wo, per solid angle
 };
 
+/// A direction drawn given wo, with its weight.
 struct Sample {
   Vec3 wi;
   double pdf;  ///< per solid angle
@@ -97,6 +99,7 @@ class Brdf {
   [[nodiscard]] Samples sample_rows(const DirectionsRef& wo, const UniformsRef& uniforms) const;
 };
 
+/// How reflectances are held and shared.
 using BrdfPtr = std::shared_ptr<const Brdf>;
 
 }  // namespace sklar::brdf

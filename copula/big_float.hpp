@@ -93,6 +93,7 @@ class BigFloat {
   std::array<mp_limb_t, kInPlace> limbs_;
 };
 
+/// As in `<cmath>`, correctly rounded by MPFR.
 [[nodiscard]] BigFloat abs(const BigFloat& x);
 [[nodiscard]] BigFloat sqrt(const BigFloat& x);
 [[nodiscard]] BigFloat cbrt(const BigFloat& x);
@@ -108,7 +109,6 @@ class BigFloat {
 [[nodiscard]] BigFloat tgamma(const BigFloat& x);
 [[nodiscard]] BigFloat lgamma(const BigFloat& x);  ///< log Gamma(x), x > 0
 [[nodiscard]] BigFloat digamma(const BigFloat& x);
-
 [[nodiscard]] inline bool isfinite(const BigFloat& x) {
   return mpfr_number_p(x.get()) != 0;
 }

@@ -137,6 +137,7 @@ class Copula {
   int dim_;
 };
 
+/// How copulas are held and shared.
 using CopulaPtr = std::shared_ptr<const Copula>;
 
 }  // namespace sklar

@@ -21,18 +21,21 @@ struct Interval {
   [[nodiscard]] std::string to_text() const;                 ///< as in "[1, inf)"
 };
 
+/// A parameter of a family.
 struct ParameterInfo {
   std::string name;
   std::function<Interval(int dim)> domain;  ///< the mathematical domain in dimension dim
 };
 
+/// Coefficients of tail dependence of a pair.
 struct TailDependence {
   double lower;
   double upper;
 };
 
+/// A family: what it is called, what parameters it has, and how to make a copula of it.
 struct FamilyInfo {
-  std::string name;    ///< registry key, lower case; with @ROTATION behind it where rotated
+  std::string name;    ///< registry key, lower case; with `@ROTATION` behind it where rotated
   std::string title;   ///< as printed
   std::string psi;     ///< textbook generator in t and the parameters, where rotated of the base; empty without one
   std::string source;  ///< reference with equation or page

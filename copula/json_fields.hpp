@@ -11,8 +11,11 @@
 
 namespace sklar::json {
 
+/// The fields keep their order.
 using Json = nlohmann::ordered_json;
 
+/// A field of an object, of the type that the name says. @throws std::invalid_argument naming the field: missing, or of
+/// another type.
 [[nodiscard]] const Json& field(const Json& object, const char* name);
 [[nodiscard]] std::string text(const Json& object, const char* name);
 [[nodiscard]] double number(const Json& object, const char* name);

@@ -19,7 +19,8 @@ struct Rows {
   Index stride, count, columns;
 };
 
-enum class Tail { lower, upper };  ///< a probability or its complement
+/// A probability or its complement.
+enum class Tail { lower, upper };
 
 /// Which rows of a batch have an answer. none: nothing is written.
 enum class Answered { none, some, all };
@@ -36,6 +37,7 @@ class Kernels {
   virtual Answered conditional_inverse(Accuracy accuracy, const Rows& rows, Tail tail, double* out) const = 0;
 };
 
+/// The functions of one instruction set and precision, as of Kernels.
 template <class Constants>
 struct KernelFunctions {
   Answered (*log_pdf)(const Constants&, const Rows&, double*);

@@ -43,6 +43,7 @@ template <class T>
   return x.value == 1 && x.error == 0;
 }
 
+/// How many of the numbers are 0 or 1 themselves, and whether all are 1.
 template <class T>
 [[nodiscard]] int count_zeros(std::span<const T> u) {
   return static_cast<int>(std::ranges::count_if(u, is_zero<T>));

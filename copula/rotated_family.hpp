@@ -26,6 +26,7 @@ struct RotatedName {
   std::optional<std::string_view> rotation;
 };
 
+/// A name such as `clayton@180` in its parts. @throws std::invalid_argument for an unknown rotation.
 [[nodiscard]] RotatedName split_rotation(std::string_view name);
 
 }  // namespace sklar

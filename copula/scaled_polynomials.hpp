@@ -204,6 +204,7 @@ struct StirlingRule {
   }
 };
 
+/// The polynomials of Frank's and Ali-Mikhail-Haq's generators.
 using StirlingPolynomials = ScaledPolynomials<StirlingRule>;
 
 }  // namespace sklar

@@ -13,6 +13,7 @@ using Column = Eigen::ArrayXd;                        ///< one number an observa
 using ColumnRef = Eigen::Ref<const Eigen::ArrayXd>;   ///< read-only view of a column
 using ColumnOut = Eigen::Ref<Eigen::ArrayXd>;         ///< caller-owned output
 using Theta = std::vector<double>;  ///< parameters of a family, in the order of FamilyInfo::parameters
+/// Of rows and columns.
 using Index = Eigen::Index;
 
 }  // namespace sklar

@@ -7,6 +7,7 @@
 
 namespace sklar {
 
+/// Number types with an error bound, in the order in which they are tried.
 using Narrow = Bounded<double>;
 using Extended = Bounded<long double>;
 using Widest = Bounded<BigFloat>;  ///< of the WorkingPrecision in force

@@ -39,6 +39,7 @@ struct Constants {
 /// Vector kernels, or null for theta without. @param polynomials R_n at n, to R_(d+1) in dimension d.
 [[nodiscard]] std::shared_ptr<const Kernels> kernels(double theta, std::vector<Coefficients> polynomials);
 
+/// The generator; see the comment of the file.
 class AliMikhailHaq {
  public:
   AliMikhailHaq(int dim, double theta)

@@ -266,6 +266,7 @@ class Frank {
   bool positive_;
 };
 
+/// The theta of a tau in (-1, 1).
 inline double theta_from_tau(double tau) {
   // tau(theta) = 4 debye_1_defect(theta) is odd, increasing and concave for theta > 0, so Newton from 0 cannot
   // overshoot.

@@ -297,6 +297,7 @@ inline double tau_series(double x) {
   return sum;
 }
 
+/// Kendall's tau of theta >= 1.
 inline double tau(double theta) {
   return std::isinf(theta) ? 1 : 2 * (theta - 1) / theta * tau_series(2 / theta);
 }

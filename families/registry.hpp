@@ -1,7 +1,7 @@
 #pragma once
-/// Families by name. The list of those registered is families/CMakeLists.txt; any of them may be rotated: clayton@180
-/// is the survival copula, clayton@90 and clayton@270 are for dimension 2, clayton@u1+u3 reflects chosen coordinates in
-/// more (see copula/rotation.hpp).
+/// Families by name. The list of those registered is families/CMakeLists.txt; any of them may be rotated: `clayton@180`
+/// is the survival copula, `clayton@90` and `clayton@270` are for dimension 2, `clayton@u1+u3` reflects chosen
+/// coordinates in more (see copula/rotation.hpp).
 
 #include <span>
 #include <string_view>
@@ -17,7 +17,7 @@ namespace sklar::families {
 /// @throws std::invalid_argument naming the unknown family and listing the known ones, or naming the unknown rotation.
 [[nodiscard]] const FamilyInfo& find(std::string_view name);
 
-/// As find; what ends in .json, before @ROTATION, is a file that defines a family (symbolic/family_definition.hpp) or
+/// As find; what ends in .json, before `@ROTATION`, is a file that defines a family (symbolic/family_definition.hpp) or
 /// holds a copula with its parameters (inference/model_io.hpp). A file is read once.
 /// @throws as find and from_definition; FileError also for a file that cannot be read.
 [[nodiscard]] const FamilyInfo& resolve(std::string_view name_or_path);

@@ -11,6 +11,7 @@
 
 namespace sklar::brdf {
 
+/// How long to search.
 struct AnalyticFitOptions {
   int shapes = 6;  ///< starts beside the defaults and the examples, times the number of free values that are not
                    ///< per channel, over which they are spread; >= 0
@@ -19,6 +20,7 @@ struct AnalyticFitOptions {
            ///< >= 1
 };
 
+/// How the search ended.
 enum class AnalyticFitStatus {
   converged,        ///< the search that gave the values ended by its tolerance
   max_evaluations,  ///< the best values seen within AnalyticFitOptions::evaluations
@@ -27,11 +29,13 @@ enum class AnalyticFitStatus {
 };
 [[nodiscard]] std::string_view to_text(AnalyticFitStatus status);  ///< "converged", "max_evaluations", ...
 
+/// A point from which a search starts, and the objective there.
 struct AnalyticStart {
   AnalyticValues values;
   double objective;
 };
 
+/// The values found, the model of them, and how the search went.
 struct AnalyticFit {
   AnalyticValues values;  ///< isotropic, within their bounds
   BrdfPtr brdf;           ///< AnalyticInfo::make of them

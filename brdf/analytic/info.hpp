@@ -16,6 +16,7 @@ enum class SearchScale {
   logarithmic  ///< equal ratios of the value, or of the value + 1 where 0 is admissible
 };
 
+/// A parameter of an analytic model: one value, or one a channel.
 struct AnalyticParameter {
   std::string name;
   Interval bounds;           ///< of each value, closed and finite
@@ -28,6 +29,7 @@ struct AnalyticParameter {
 /// The values of a model's parameters, one after another in the order of AnalyticInfo::parameters.
 using AnalyticValues = std::vector<double>;
 
+/// The value by which everything outside a model's own file knows the model.
 struct AnalyticInfo {
   std::string name;    ///< registry key, lower case
   std::string title;   ///< as printed

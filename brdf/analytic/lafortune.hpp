@@ -74,6 +74,7 @@ class LafortuneLobe final : public Brdf {
 
 namespace analytic::lafortune {
 
+/// Lobes of the model, and numbers of each.
 inline constexpr int kLobes = 3;
 inline constexpr int kLobeValues = 7;  // specular, C, exponent
 

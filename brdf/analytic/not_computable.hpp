@@ -13,6 +13,7 @@ struct NotComputable {
   std::string_view why;     ///< one sentence, without the name
 };
 
+/// The models that are not here, with the reason.
 inline constexpr std::array kNotComputable = {
     NotComputable{
         "He, Torrance, Sillion and Greenberg",

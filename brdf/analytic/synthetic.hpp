@@ -15,6 +15,7 @@ namespace sklar::brdf {
 /// Name of the anisotropic one, here and on the command line.
 inline constexpr const char* kAnisotropicSynthetic = "synthetic-anisotropic";
 
+/// What the built-in anisotropic material is made with.
 struct AnisotropicSynthetic {
   double scatter = 0.02;    ///< standard deviation of the logarithm of each value, in [0,1]
   double masked_share = 0;  ///< share of the cells above the horizon that are masked, at random, in [0,1)

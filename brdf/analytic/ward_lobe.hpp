@@ -24,6 +24,7 @@
 
 namespace sklar::brdf {
 
+/// The denominators of Ward (1992) and of Duer (2005).
 enum class WardNormalisation { ward, duer };
 
 class WardLobe final : public Brdf {

@@ -9,6 +9,7 @@
 
 namespace sklar::brdf {
 
+/// A measured value and its directions.
 struct FitCell {
   Vec3 wo, wi;  ///< above the horizon; wi is the direction at phi_d
   Rgb value;    ///< f_r, 1/sr

@@ -18,6 +18,7 @@ namespace sklar::brdf {
 
 class Homomorphic final : public Brdf {
  public:
+  /// The factors of a channel, in logarithms.
   struct Channel {
     HalfArray log_p;  ///< on nodes k 90 deg / (n - 1) of theta
     HalfArray log_q;  ///< on nodes (k / (n - 1))^2 90 deg of theta_h

@@ -19,6 +19,7 @@ struct BasisData {
   std::function<void(std::string_view)> on_message = {};              ///< told what the caller should know of a fit
 };
 
+/// The value by which everything outside a model's own file knows the model.
 struct BasisInfo {
   std::string name;             ///< registry key, lower case
   std::string title;            ///< as printed

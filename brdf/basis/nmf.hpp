@@ -29,10 +29,12 @@ struct NmfNodes {
 
 class Nmf final : public Brdf {
  public:
+  /// A term of the inner factorisation, over the half vector.
   struct Inner {
     HalfArray u;  ///< theta_h nodes, >= 0
     HalfArray v;  ///< phi_h nodes, >= 0
   };
+  /// A term of the outer factorisation, over theta_o and the half vector.
   struct Outer {
     HalfArray f;  ///< 3 theta_o nodes, channel by channel, >= 0
     std::vector<Inner> inner;

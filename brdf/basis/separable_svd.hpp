@@ -21,6 +21,7 @@ namespace sklar::brdf {
 
 class SeparableSvd final : public Brdf {
  public:
+  /// A product of a function of theta_h and one of theta_d and phi_d.
   struct Term {
     HalfArray half;        ///< u: 3 theta_h numbers, channel by channel
     HalfArray difference;  ///< v: theta_d phi_d numbers, phi_d fastest

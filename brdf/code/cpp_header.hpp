@@ -7,7 +7,7 @@
 
 namespace sklar::brdf {
 
-/// A header of C++17 that needs <array> and <cmath> only, allocates nothing and keeps no state. In namespace
+/// A header of C++17 that needs `<array>` and `<cmath>` only, allocates nothing and keeps no state. In namespace
 /// cpp_namespace(material):
 ///
 ///     struct vec2 { double x, y; };  struct vec3 { double x, y, z; };

@@ -18,6 +18,7 @@ class AnisotropicTableBrdf final : public Brdf {
   using Brdf::eval;
   [[nodiscard]] Rgb eval(const Vec3& wo, const Vec3& wi) const override;
 
+  /// A value read between cells.
   struct Reading {
     Rgb value;        ///< 0 where no cell around is valid
     double coverage;  ///< weight of the valid cells, in [0,1]

@@ -34,6 +34,7 @@ struct ImageBlend {
   return {low, (low + 1) % nodes, position - floor};
 }
 
+/// Linear interpolation from a (share 0) to b (share 1).
 [[nodiscard]] inline double mix(double a, double b, double share) {
   return a + share * (b - a);
 }

@@ -25,6 +25,7 @@ struct Grid {
   [[nodiscard]] static double phi_d_centre(int k);    ///< radians
 };
 
+/// Where data come from: measured, reconstructed from a published fit, computed, or nobody said.
 enum class Provenance { measured, reconstruction, synthetic, unknown };
 [[nodiscard]] std::string to_text(Provenance provenance);
 

@@ -29,7 +29,7 @@ class RglMaterial {
   /// @throws FileError naming the file and the field that is missing, misshapen or out of range.
   explicit RglMaterial(const std::filesystem::path& path);
 
-  /// f_r cos(theta_o), 1/sr. @param wi the direction that is known to the file. @param wo, wi unit, above the horizon.
+  /// f_r cos(theta_o), 1/sr, of directions above the horizon. @param wi the direction that is known to the file.
   [[nodiscard]] Rgb f_cos(const Vec3& wo, const Vec3& wi) const;
 
   /// f_r, 1/sr: f_cos, negative values as 0, over cos(theta_o), which counts as cos(87.5 deg) below that.

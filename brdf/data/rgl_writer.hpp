@@ -22,11 +22,13 @@ struct RglLayout {
   int nodes;         ///< of the values along both axes
 };
 
+/// What is written unless another layout is asked for.
 inline constexpr RglLayout kIsotropicLayout{
     .azimuths = 1, .slices = 32, .warp_rows = 64, .warp_columns = 128, .nodes = 64};
 inline constexpr RglLayout kAnisotropicLayout{
     .azimuths = 49, .slices = 12, .warp_rows = 64, .warp_columns = 64, .nodes = 32};
 
+/// How a file is written.
 struct RglWriteOptions {
   RglForm form = RglForm::rgb;
   std::string description = {};          ///< what a reader shows of the file

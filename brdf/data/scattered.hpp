@@ -9,6 +9,7 @@
 
 namespace sklar::brdf {
 
+/// A measurement at a pair of directions.
 struct ScatteredSample {
   Vec3 wo, wi;  ///< unit, above the horizon
   Rgb value;    ///< f_r, 1/sr

@@ -11,6 +11,7 @@ namespace sklar::brdf {
 struct CellPosition {
   Between theta_h, theta_d, phi_d;
 };
+/// The cells around coordinates.
 [[nodiscard]] CellPosition cell_position(const HalfDifference& coordinates);
 
 /// Trilinear interpolation in (90 sqrt(theta_h / 90 deg), theta_d, phi_d) as docs/conventions.md pins it: a cell's

@@ -15,6 +15,7 @@
 
 namespace sklar::brdf {
 
+/// A field of a file.
 struct FloatTensor {
   std::vector<std::size_t> shape;
   std::vector<float> values;  ///< row-major, finite

@@ -28,6 +28,7 @@ struct HalfDifference4 {
   double phi_d;    ///< [0,pi)
 };
 
+/// Two directions, unit, away from the surface.
 struct DirectionPair {
   Vec3 wi;
   Vec3 wo;

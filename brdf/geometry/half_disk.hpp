@@ -87,6 +87,7 @@ struct LocalDirection {
   return {factor * (x - q * square) - q, factor * y, c * rest * d * inverse};
 }
 
+/// wi given wo in both coordinates of the sampler, with the measure of each.
 struct WiCoordinates {
   double disk2;         ///< |m|^2, in [0,1]
   double disk_azimuth;  ///< FoldedAzimuth of the argument of m

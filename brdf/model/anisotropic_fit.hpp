@@ -10,6 +10,7 @@
 
 namespace sklar::brdf {
 
+/// How an anisotropic model is fitted.
 struct AnisotropicFitOptions {
   AnisotropicStructure structure = {};
   RefinedObjective objective = RefinedObjective::balanced;

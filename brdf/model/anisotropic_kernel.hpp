@@ -30,6 +30,7 @@ struct AnisotropicPoints {
   int numbers = 0;  ///< a pair
   std::vector<float> values{};
 };
+/// @param count of the pairs, the first of the rows.
 [[nodiscard]] AnisotropicPoints anisotropic_points(const AnisotropicStructure& structure, const DirectionRows& wo,
                                                    const DirectionRows& wi, std::ptrdiff_t count);
 

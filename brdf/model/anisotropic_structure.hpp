@@ -27,6 +27,7 @@ struct AnisotropicStructure {
   friend bool operator==(const AnisotropicStructure&, const AnisotropicStructure&) = default;
 };
 
+/// The most components, and the bits of a number of their ellipses.
 inline constexpr int kMostAnisotropicComponents = 8;
 inline constexpr int kMetricBits = 16;
 
@@ -38,6 +39,7 @@ struct TermGroup {
   int count;
   bool harmonic;  ///< the sum of their absolute values is at most 1; else they are not negative, and their sum is
 };
+/// The groups in the order of the coefficients.
 [[nodiscard]] std::vector<TermGroup> term_groups(const AnisotropicStructure& structure);
 
 /// Numbers of terms: of the log density, and of a colour.

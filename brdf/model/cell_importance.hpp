@@ -15,7 +15,7 @@ class CellImportance {
 
   CellImportance() : values_(static_cast<std::size_t>(Grid::theta_h * Grid::theta_d * kAzimuths)) {}
 
-  /// @param i, j, k bins of theta_h, theta_d and phi_d.
+  /// Of the bins i, j, k of theta_h, theta_d and phi_d; azimuth is one of kAzimuths.
   [[nodiscard]] double at(int i, int j, int k) const { return values_[index(i, j, azimuth_of(k))]; }
   [[nodiscard]] double& bin(int i, int j, int azimuth) { return values_[index(i, j, azimuth)]; }
   [[nodiscard]] double bin(int i, int j, int azimuth) const { return values_[index(i, j, azimuth)]; }

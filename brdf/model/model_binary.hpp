@@ -8,6 +8,7 @@
 
 namespace sklar::brdf {
 
+/// How a file begins, and the newest version written and read.
 inline constexpr std::string_view kBinaryMagic = "sklarbrdf";
 inline constexpr int kBinaryVersion = 1;
 

@@ -14,6 +14,7 @@
 
 namespace sklar::brdf {
 
+/// A model of any kind that can be stored.
 using ModelPtr = std::variant<std::shared_ptr<const PaperBrdf>, std::shared_ptr<const RefinedBrdf>,
                               std::shared_ptr<const AnisotropicModel>>;
 

@@ -37,6 +37,7 @@ template <class Layout>
   return pack_runs(layout.runs(bits), bits, coefficients);
 }
 
+/// The coefficients, as they were rounded.
 template <class Layout>
 [[nodiscard]] std::vector<double> unpack(const Layout& layout, const PackedCoefficients& packed) {
   return unpack_runs(layout.runs(packed.bits), packed);

@@ -8,6 +8,7 @@
 
 namespace sklar::brdf {
 
+/// How the paper's model is fitted.
 struct PaperFitOptions {
   int slices = 6;                               ///< equal theta_d intervals; a divisor of 90
   FitMethod method = FitMethod::least_squares;  ///< Eq. 17; maximum_likelihood is Eq. 16

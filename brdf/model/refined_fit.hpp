@@ -13,6 +13,7 @@
 
 namespace sklar::brdf {
 
+/// How a refined model is fitted.
 struct RefinedFitOptions {
   RefinedStructure structure = {};
   std::vector<FamilyInfo> families = {};  ///< one for all components or one a component; none is independence

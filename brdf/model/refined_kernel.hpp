@@ -28,6 +28,7 @@ struct CacheLineAllocator {
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
+/// Numbers that begin on a line of the cache.
 using AlignedFloats = std::vector<float, CacheLineAllocator<float>>;
 
 /// AxisRange::place as x stretch - low, cut off at 0 and 1.

@@ -41,12 +41,14 @@ struct RefinedStructure {
   friend bool operator==(const RefinedStructure&, const RefinedStructure&) = default;
 };
 
+/// Upper bounds of RefinedStructure.
 inline constexpr int kMostComponents = 8;
 inline constexpr int kHighestDegree = 6;  ///< even
 
 /// @throws std::invalid_argument naming the field, its value and what is allowed.
 void require_structure(const RefinedStructure& structure);
 
+/// Whether neither axis is cut.
 [[nodiscard]] bool is_whole(const RefinedStructure& structure);
 
 /// Whether a pair of directions is within both ranges.

@@ -21,6 +21,7 @@ class EnvironmentMap {
   /// The environment at the centres of 2 rows x rows pixels. @throws as above; also unless rows is at least 1.
   [[nodiscard]] static EnvironmentMap tabulated(const Environment& environment, int rows = 512);
 
+  /// A direction drawn from the map.
   struct Draw {
     Vec3 direction;
     Rgb radiance;
@@ -53,6 +54,7 @@ class EnvironmentMap {
   std::vector<double> columns_;  ///< in each row, running sum of luminance
 };
 
+/// How maps are held and shared.
 using EnvironmentPtr = std::shared_ptr<const EnvironmentMap>;
 
 }  // namespace sklar::brdf

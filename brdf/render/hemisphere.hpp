@@ -11,6 +11,7 @@ struct HemisphereOptions {
   int azimuth = 64;
 };
 
+/// Nodes of a quadrature over wi.
 struct HemisphereNodes {
   Directions wi;          ///< n x 3, above the horizon
   Eigen::ArrayXd weight;  ///< n, of the measure cos(theta_i) dwi

@@ -9,6 +9,7 @@
 
 namespace sklar::brdf {
 
+/// A direction toward a light, drawn from a point.
 struct LightDraw {
   Vec3 direction = Vec3::Zero();                              ///< unit, toward the light
   double distance = std::numeric_limits<double>::infinity();  ///< infinite for distant light

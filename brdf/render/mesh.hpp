@@ -11,12 +11,14 @@
 
 namespace sklar::brdf {
 
+/// A surface of triangles.
 struct TriangleMesh {
   std::vector<Vec3> vertices;
   std::vector<Vec3> normals;                  ///< unit, one a vertex; none = each triangle has its own
   std::vector<std::array<int, 3>> triangles;  ///< anticlockwise seen from the front
 };
 
+/// How meshes are held and shared.
 using MeshPtr = std::shared_ptr<const TriangleMesh>;
 
 /// (b - a) x (c - a) of a triangle: along its normal, twice its area long.
@@ -34,6 +36,7 @@ struct Placement {
   Vec3 at = Vec3::Zero();
 };
 
+/// The mesh scaled, turned and moved.
 [[nodiscard]] TriangleMesh placed(TriangleMesh mesh, const Placement& placement);
 
 /// The parallelogram at `corner` with the given sides; its front is along side_a x side_b.

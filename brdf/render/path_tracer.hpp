@@ -10,6 +10,7 @@
 
 namespace sklar::brdf {
 
+/// How a picture is traced.
 struct PathOptions {
   int samples = 64;  ///< paths a pixel; powers of two are spread best
   std::uint64_t seed = 1;

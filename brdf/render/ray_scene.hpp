@@ -8,6 +8,7 @@
 
 namespace sklar::brdf {
 
+/// Where a ray meets a surface.
 struct Hit {
   std::size_t object;
   Vec3 point;           ///< on the surface, to rounding

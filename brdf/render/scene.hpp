@@ -11,6 +11,7 @@
 
 namespace sklar::brdf {
 
+/// A pinhole camera.
 struct Camera {
   Vec3 position{0, 0, 5};
   Vec3 target{0, 0, 0};
@@ -18,6 +19,7 @@ struct Camera {
   double field_of_view = 40;  ///< degrees, from the lower to the upper edge of the picture
 };
 
+/// A shape of its own, not of triangles.
 struct Sphere {
   Vec3 centre = Vec3::Zero();
   double radius = 1;
@@ -32,6 +34,7 @@ struct Object {
   Rgb emission = Rgb::Zero();  ///< radiance, the same in all directions
 };
 
+/// A distant light without extent.
 struct DirectionalLight {
   Vec3 direction{0, 1, 0};       ///< toward the light, any length
   Rgb irradiance = Rgb::Ones();  ///< on a plane that faces the light

@@ -8,6 +8,7 @@
 
 namespace sklar::brdf {
 
+/// How the sphere is lit and drawn.
 struct SphereOptions {
   int size = 256;         ///< pixels a side
   double radius = 0.92;   ///< of the sphere, in half sides of the picture

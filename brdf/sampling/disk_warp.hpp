@@ -13,7 +13,7 @@ struct DiskWarp {
   double spread, core, core4, scale;
   double above_core;  ///< 1 / (1 - core4)
 
-  /// @param spread in (0,1].
+  /// @param spread_ in (0,1].
   explicit DiskWarp(double spread_)
       : spread(spread_),
         core(kCore * spread),
@@ -21,6 +21,7 @@ struct DiskWarp {
         scale(1 + spread / (1 - core)),
         above_core(1 / (1 - core4)) {}
 
+  /// A coordinate and its slope.
   struct Place {
     double coordinate;
     double slope;  ///< dcoordinate / d|m|^2

@@ -33,6 +33,7 @@ struct KindState {
   std::array<double, Kind.components> share;
 };
 
+/// The components while they are fitted.
 struct MixtureState {
   KindState<kOfHalf> half;
   KindState<kOfWi> wi;

@@ -17,6 +17,7 @@ struct SamplerKind {
 };
 inline constexpr SamplerKind kOfHalf{4, 16,
                                      12};  ///< even azimuth cells: a knot at phi = pi/2, the kink of FoldedAzimuth
+/// Components over wi; of both kinds; nodes of theta_o.
 inline constexpr SamplerKind kOfWi{2, 8, 8};
 inline constexpr std::size_t kSamplerComponents = kOfHalf.components + kOfWi.components;
 inline constexpr int kOutgoingNodes = 13;

@@ -7,6 +7,7 @@
 
 namespace sklar::brdf {
 
+/// A direction and how much light it stands for.
 struct TargetPoint {
   WiCoordinates at;
   double measure;  ///< solid angle it stands for, both sides of the plane of incidence

@@ -19,6 +19,7 @@ struct AnisotropicPoint {
 /// Structures from 0.4 to 3 KB at 12 bits a coefficient, each larger and more exact than the one before.
 [[nodiscard]] const std::vector<AnisotropicStructure>& anisotropic_ladder();
 
+/// The models fitted, and the one that serves the budget.
 struct AnisotropicChoice {
   std::vector<AnisotropicPoint> front;  ///< in the order they were fitted
   std::size_t chosen;                   ///< index in front

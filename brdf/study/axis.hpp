@@ -7,6 +7,7 @@
 
 namespace sklar::brdf {
 
+/// How values are spread along an axis.
 enum class Scale {
   linear,
   logarithmic,
@@ -23,6 +24,7 @@ struct Axis {
   std::vector<double> ticks = {};  ///< empty: chosen
 };
 
+/// A mark on an axis with its label.
 struct Tick {
   double position;  ///< on the axis, 0 at low, 1 at high
   std::string text;

@@ -25,6 +25,7 @@ void require_budget(const Budget& budget, const std::string& caller);
 /// @throws std::runtime_error where the smallest model there is has more bytes than the budget.
 void require_bytes(const Budget& budget, std::size_t smallest);
 
+/// What a budget may limit, of one model.
 struct ModelFigures {
   std::size_t bytes = 0;                 ///< Brdf::bytes
   double log1p_mae = 0, logrel_mae = 0;  ///< CellErrors, mean over channels
@@ -35,6 +36,7 @@ struct ModelFigures {
 /// All but the time of the fit.
 [[nodiscard]] ModelFigures figures_of(const Brdf& brdf, const CellErrors& errors);
 
+/// Whether no figure is above its limit.
 [[nodiscard]] bool meets(const ModelFigures& figures, const Budget& budget);
 
 /// "no model meets the budget; the most exact one has .."

@@ -12,16 +12,19 @@
 
 namespace sklar::brdf {
 
+/// How text is drawn.
 struct Font {
   double size = 12;
   bool bold = false;
   Colour colour{0.13, 0.13, 0.13};
 };
 
+/// A place on the sheet.
 struct Point {
   double x, y;
 };
 
+/// A rectangle from its upper left corner.
 struct Box {
   double x, y, width, height;
 };

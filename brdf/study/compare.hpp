@@ -36,6 +36,7 @@ struct CompareRow {
 /// How a family is fitted: in the paper's mode, or refined with that family in every component.
 using FamilyFitOptions = std::variant<PaperFitOptions, RefinedFitOptions>;
 
+/// The families on one material.
 struct Comparison {
   std::vector<CompareRow> rows;                ///< mode after mode, in the order of the families
   std::vector<std::filesystem::path> figures;  ///< as write_figures names them

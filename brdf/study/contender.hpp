@@ -18,6 +18,7 @@ struct ContenderData {
   std::span<const std::shared_ptr<const MeasuredTable>> others;  ///< for models that learn from a set of materials
 };
 
+/// A model that was fitted.
 struct ContenderFit {
   BrdfPtr brdf;       ///< with the sampler that the model has
   std::size_t bytes;  ///< of the model, without a sampler made for it

@@ -53,6 +53,7 @@ struct PictureErrors {
 /// @throws std::invalid_argument for pictures of different sizes.
 [[nodiscard]] PictureErrors picture_errors(const Image& picture, const ReferencePair& reference);
 
+/// The error of one picture.
 struct ConvergenceRow {
   std::string sampler;  ///< Drawing::name
   int samples;          ///< paths a pixel
@@ -60,6 +61,7 @@ struct ConvergenceRow {
   PictureErrors errors;
 };
 
+/// A picture and its error.
 struct MeasuredPicture {
   ConvergenceRow row;
   Image image;

@@ -45,6 +45,7 @@ struct CellShares {
 /// The mean absolute difference of the displayed sRGB values of a pixel, times gain, in viridis.
 [[nodiscard]] Bytes false_colour_difference(const Image& reference, const Image& model, double exposure, double gain);
 
+/// A column of the figure.
 struct SpherePair {
   std::string label;
   const Image* reference;

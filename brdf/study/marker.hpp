@@ -3,6 +3,7 @@
 
 namespace sklar::brdf {
 
+/// The signs of points in a plot.
 enum class Marker { none, circle, square, triangle, diamond };
 
 }  // namespace sklar::brdf

@@ -29,6 +29,7 @@ struct ModelTradeoffRow {
   std::string error = {};
 };
 
+/// Which models are fitted.
 struct ModelTradeoffOptions {
   std::vector<int> slices = {1, 3, 6, 15, 30};                ///< of the paper's models; divisors of 90
   std::vector<RefinedStructure> ladder = structure_ladder();  ///< of the refined ones

@@ -15,6 +15,7 @@
 
 namespace sklar::brdf {
 
+/// A line or points of a plot.
 struct Line {
   std::string label = {};  ///< lines with one label share one entry of the legend; empty: none
   std::vector<double> x = {}, y = {};
@@ -40,8 +41,10 @@ struct HeatMap {
   Axis colour = {};                                ///< of the colour bar
 };
 
+/// One plot of a page.
 using Panel = std::variant<LinePlot, HeatMap>;
 
+/// Plots in rows and columns.
 struct Page {
   std::string title = {};
   int columns = 3;
@@ -50,11 +53,13 @@ struct Page {
   double panel_height = 270;
 };
 
+/// A picture of a grid.
 struct Tile {
   Bytes picture;
   std::string caption;  ///< below the picture
 };
 
+/// Pictures in rows and columns.
 struct ImageGrid {
   std::string title = {};
   std::vector<std::string> column_labels, row_labels;  ///< empty, or one for each column, row

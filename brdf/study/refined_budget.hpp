@@ -44,6 +44,7 @@ inline constexpr int kLadderBits = 12;
 /// @throws std::runtime_error naming the smallest where there is none.
 [[nodiscard]] RefinedStructure largest_structure(double max_bytes, int bits);
 
+/// The front of the models fitted, and the one that serves the budget.
 struct BudgetChoice {
   std::vector<FrontPoint> front;  ///< of all models fitted those with none both smaller and more exact, by bytes
   std::size_t chosen;             ///< index in front

@@ -21,6 +21,7 @@ struct ImageTolerance {
   [[nodiscard]] bool meets(const ImageErrors& errors) const;
 };
 
+/// How models for a scene are fitted and judged.
 struct SceneFitOptions {
   RefinedFitOptions fit = {};           ///< structure, bits and importance are not used
   std::vector<int> bits = {8, 10, 12};  ///< of a stored coefficient
@@ -37,6 +38,7 @@ struct SceneModel {
   Image image;
 };
 
+/// The models tried, and the smallest that are good enough with and without the scene.
 struct SceneChoice {
   SceneUse use;
   Image reference;

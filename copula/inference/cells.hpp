@@ -29,6 +29,7 @@ struct CellTable {
 /// @throws std::invalid_argument (shapes, bins, all weights 0), std::domain_error (an entry of u or weights).
 [[nodiscard]] CellTable count_cells(const PointsRef& u, const ColumnRef& weights, Index bins);
 
+/// The most cells that count_cells makes.
 inline constexpr Index kMostCells = Index{1} << 24;
 
 /// At most `most` cells whose weighted sums estimate those of the whole table: half of them chosen evenly, half by

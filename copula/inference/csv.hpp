@@ -11,6 +11,7 @@
 
 namespace sklar {
 
+/// Named columns of numbers.
 struct Table {
   std::vector<std::string> names;  ///< d column names
   Points values;                   ///< n x d

@@ -13,8 +13,10 @@
 
 namespace sklar {
 
+/// See fit_maximum_likelihood, fit_least_squares and fit_tau_inversion.
 enum class FitMethod { maximum_likelihood, least_squares, tau_inversion };
 
+/// How a search ended.
 enum class FitStatus {
   converged,
   at_bound,         ///< the best parameter is at an end of the domain, or of the range searched towards infinity
@@ -25,6 +27,7 @@ enum class FitStatus {
 [[nodiscard]] std::string_view to_text(FitMethod method);  ///< "ml", "ls", "tau"
 [[nodiscard]] std::string_view to_text(FitStatus status);  ///< "converged", "at_bound", ...
 
+/// How long and how to search.
 struct FitOptions {
   double tolerance = 1e-7;      ///< of the search scale z = atanh(tau); its sampling error is about 0.7/sqrt(n)
   int max_evaluations = 300;    ///< of the objective over all rows

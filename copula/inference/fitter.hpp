@@ -13,6 +13,7 @@
 
 namespace sklar {
 
+/// What is minimised, as a function of the copula.
 using CopulaObjective = std::function<Evaluation(const Copula&)>;
 
 /// Sum of the weights; no weights means one each.

@@ -24,6 +24,7 @@ class Marginal {
   [[nodiscard]] Column quantile(const ColumnRef& p) const;
 };
 
+/// A margin that has a density.
 class DensityMarginal : public Marginal {
  public:
   /// Natural log of the density; -inf where it is 0.

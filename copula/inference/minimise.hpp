@@ -18,24 +18,29 @@ struct Evaluation {
   }
 };
 
+/// What is minimised.
 using Objective = std::function<Evaluation(const std::vector<double>& z)>;
 
 /// The derivative of the value by each coordinate; where it is not finite the search gives up.
 using Gradient = std::function<std::vector<double>(const std::vector<double>& z)>;
 
+/// The domain of the search, ends included.
 struct Box {
   std::vector<double> lower;
   std::vector<double> upper;
 };
 
+/// How long and how to search.
 struct MinimiseOptions {
   double step;          ///< first step along each coordinate
   double tolerance;     ///< stop when the steps are smaller
   int max_evaluations;  ///< >= 1
 };
 
+/// What ended the search.
 enum class MinimiseStop { tolerance, max_evaluations, failed };
 
+/// What the search found.
 struct Minimum {
   std::vector<double> z;  ///< the best point evaluated, whatever stopped the search
   Evaluation best;

@@ -14,8 +14,10 @@
 
 namespace sklar {
 
+/// A margin that can be stored.
 using StoredMarginal = std::variant<HistogramMarginal, EmpiricalMarginal>;
 
+/// A copula of one family, with its weight.
 struct ModelComponent {
   std::string family;  ///< FamilyInfo::name
   Theta theta;
@@ -23,6 +25,7 @@ struct ModelComponent {
   double weight = 1;         ///< in a mixture
 };
 
+/// What a file holds.
 struct CopulaModel {
   int dim = 0;
   std::vector<ModelComponent> components;  ///< one, or those of a mixture

@@ -9,6 +9,7 @@
 
 namespace sklar {
 
+/// In what pieces rows are evaluated.
 struct Chunking {
   Index rows = 8192;     ///< rows a call of the copula: one column of them is 64 KiB
   bool parallel = true;  ///< chunks on the threads of oneTBB, added up in the order of the rows

@@ -21,6 +21,7 @@ struct TradeoffRow {
   ValueErrors errors;    ///< against twice the digits of the level "exact"; of log_pdf as a logarithm
 };
 
+/// What is measured.
 struct TradeoffOptions {
   int dim = 2;
   Index rows = 1000;  ///< points drawn from the copula

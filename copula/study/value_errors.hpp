@@ -7,6 +7,7 @@
 
 namespace sklar {
 
+/// What counts as the error of a value v for the exact e.
 enum class ErrorMeasure {
   relative,  ///< |v - e| / |e|
   logarithm  ///< |v - e| / max(1, |e|)

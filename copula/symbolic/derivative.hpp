@@ -19,6 +19,7 @@ class Derivatives {
  public:
   /// @param x a symbol. @throws std::invalid_argument if it is not.
   Derivatives(const Expression& f, const Expression& x);
+
   ~Derivatives();
   Derivatives(Derivatives&&) noexcept;
   Derivatives& operator=(Derivatives&&) noexcept;

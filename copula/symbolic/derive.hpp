@@ -6,11 +6,13 @@
 
 namespace sklar::symbolic {
 
+/// In what a derivative is written.
 enum class Language { text, latex, cpp };
 
 /// @throws std::invalid_argument listing the known ones. @param name "text", "latex" or "cpp".
 [[nodiscard]] Language language_named(std::string_view name);
 
+/// The highest order that derive takes.
 constexpr int kMaxDeriveOrder = 100;
 
 /// The signed d^order psi / dt^order, psi a formula in t and parameters. Text is in the grammar of parser.hpp, one

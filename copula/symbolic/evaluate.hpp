@@ -6,6 +6,7 @@
 
 namespace sklar::symbolic {
 
+/// How exact an evaluation is.
 struct EvaluationOptions {
   /// A value v with error bound e is accepted if e <= tolerance * max(|v|, floor).
   double tolerance = 1e-13;
@@ -15,6 +16,7 @@ struct EvaluationOptions {
   int max_digits = 3200;
 };
 
+/// Values, and what they took.
 struct Evaluation {
   Points values;        ///< rows x outputs, each exact value rounded to double: 0 below 2^-1075, inf above the largest
   Index promoted = 0;   ///< rows for which double was not enough

@@ -15,8 +15,8 @@
 
 namespace sklar::symbolic {
 
+/// What an expression is made of, and the functions that there are.
 enum class Kind { number, symbol, function, product, sum, power };
-
 enum class Function { exp, log, sin, cos, tan, atan, abs, gamma, lgamma, digamma, polygamma, lambertw };
 
 struct Node;
@@ -50,15 +50,18 @@ class Expression {
   std::shared_ptr<const Node> node_;
 };
 
+/// For tables by expression: equal ones are one node.
 struct ExpressionHash {
   std::size_t operator()(const Expression& e) const noexcept { return std::hash<const void*>()(&e.node()); }
 };
 
+/// A symbol, called as the text says.
 [[nodiscard]] Expression symbol(const std::string& name);
 
 /// Numerator / denominator, exactly. @throws std::domain_error for a zero denominator.
 [[nodiscard]] Expression rational(long numerator, long denominator);
 
+/// Sum and product of any number of expressions, in canonical form.
 [[nodiscard]] Expression sum(const std::vector<Expression>& terms);
 [[nodiscard]] Expression product(const std::vector<Expression>& factors);
 
@@ -68,6 +71,7 @@ struct ExpressionHash {
 /// @throws std::invalid_argument for a wrong number of arguments, or an order of polygamma that is not a whole number.
 [[nodiscard]] Expression apply(Function function, const std::vector<Expression>& args);
 
+/// Functions and operators as they are written in C++.
 [[nodiscard]] inline Expression exp(const Expression& x) {
   return apply(Function::exp, {x});
 }
@@ -81,6 +85,7 @@ struct ExpressionHash {
   return power(x, rational(1, 2));
 }
 
+/// Functions and operators as they are written in C++.
 [[nodiscard]] inline Expression operator+(const Expression& a, const Expression& b) {
   return sum({a, b});
 }

@@ -23,6 +23,7 @@ struct LogForm {
   Expression log_abs;
   std::vector<Expression> sign_factors;  ///< the sign of e is the product of theirs
 };
+/// The logarithm of |e| and the factors of its sign.
 [[nodiscard]] LogForm log_form(const Expression& e);
 
 }  // namespace sklar::symbolic

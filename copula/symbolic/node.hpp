@@ -7,6 +7,7 @@
 
 namespace sklar::symbolic {
 
+/// Exact numbers of any size.
 using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 using Rational =
     boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
@@ -31,10 +32,12 @@ struct Node {
 /// Negative, zero or positive; a total order that depends on the contents only.
 [[nodiscard]] int compare(const Expression& a, const Expression& b);
 
+/// The order of compare.
 struct CanonicalLess {
   bool operator()(const Expression& a, const Expression& b) const { return compare(a, b) < 0; }
 };
 
+/// The value of a number, and what it is. Precondition of value_of: a number.
 [[nodiscard]] inline const Rational& value_of(const Expression& number) {
   return number.node().number;
 }
@@ -50,6 +53,7 @@ struct Scaled {
   Rational coefficient;
   Expression rest;
 };
+/// The expression as a number times the rest.
 [[nodiscard]] Scaled split_coefficient(const Expression& e);
 
 /// A sum as content * rest, where the coefficients of rest are coprime integers; with signed_content the first of them
@@ -72,6 +76,7 @@ struct Powered {
   Expression base;
   Expression exponent;
 };
+/// The expression as a power; itself to the power 1 where it is none.
 [[nodiscard]] Powered split_power(const Expression& e);
 
 /// The terms of a sum, or the expression itself; likewise the factors of a product.

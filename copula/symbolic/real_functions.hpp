@@ -52,20 +52,21 @@ Real lambertw(const Real& x) {
   return w;
 }
 
+/// As in `<cmath>`, with a bound of the error where the argument has one.
 template <class Real>
 Real power(const Real& x, const Real& y) {
   using std::pow;
   return pow(x, y);
 }
-/// Overflow gives inf and not an exception, as in <cmath>.
+
+/// Overflow gives inf and not an exception, as in `<cmath>`.
 using Quiet =
     boost::math::policies::policy<boost::math::policies::domain_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::pole_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
                                   boost::math::policies::evaluation_error<boost::math::policies::ignore_error>>;
 
-// Gamma and its kin are taken for positive arguments only, nan elsewhere. MPFR rounds its own correctly.
-
+/// Gamma and its kin are taken for positive arguments only, nan elsewhere. MPFR rounds its own correctly.
 template <class Real>
 Real gamma(const Real& x) {
   return x > 0 ? boost::math::tgamma(x, Quiet()) : std::numeric_limits<Real>::quiet_NaN();
@@ -82,7 +83,6 @@ template <class Real>
 Real polygamma(int order, const Real& x) {
   return x > 0 ? boost::math::polygamma(order, x, Quiet()) : std::numeric_limits<Real>::quiet_NaN();
 }
-
 [[nodiscard]] inline BigFloat gamma(const BigFloat& x) {
   return x > 0 ? tgamma(x) : std::numeric_limits<BigFloat>::quiet_NaN();
 }
@@ -130,6 +130,7 @@ Bounded<Real> from_ends(const Bounded<Real>& x, const Real& lowest, int ulps, F 
   return {v, Real(deviation + 2 * ulps * epsilon * largest + Bounded<Real>::underflow())};
 }
 
+/// Slopes are at most 1.
 template <class Real>
 Bounded<Real> sin(const Bounded<Real>& x) {
   using std::abs, std::sin;
@@ -179,6 +180,7 @@ Bounded<Real> power(const Bounded<Real>& x, const Bounded<Real>& y) {
   return {v, Real(abs(v) * growth + 2 * std::numeric_limits<Real>::epsilon() * abs(v) + Bounded<Real>::underflow())};
 }
 
+/// By from_ends.
 template <class Real>
 Bounded<Real> gamma(const Bounded<Real>& x) {
   return from_ends(x, Real(0), kSpecialError, [](const Real& at) { return real::gamma(at); });

@@ -42,6 +42,7 @@ enum class Op : std::uint8_t {
   lambertw
 };
 
+/// An operation and where its operands are.
 struct Instruction {
   Op op;
   std::int32_t a = 0;

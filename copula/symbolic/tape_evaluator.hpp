@@ -19,16 +19,19 @@ struct FromConstant {
     return Real(Real(c.numerator) / Real(c.denominator));
   }
 };
+/// The nearest double, as it is stored.
 template <>
 struct FromConstant<double> {
   static double convert(const TapeConstant& c) { return c.nearest; }
 };
+/// In the precision of the type.
 template <>
 struct FromConstant<long double> {
   static long double convert(const TapeConstant& c) {
     return c.exact ? c.nearest : std::stold(c.numerator) / std::stold(c.denominator);
   }
 };
+/// With the error of rounding.
 template <class Real>
 struct FromConstant<Bounded<Real>> {
   static Bounded<Real> convert(const TapeConstant& c) {
