@@ -76,12 +76,14 @@ class Brdf {
     return sample_rows(wo.derived(), uniforms.derived());
   }
 
+  /// What the model claims of itself.
   [[nodiscard]] virtual Traits traits() const = 0;
 
   /// Size in bytes of everything evaluation needs.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 
  protected:
+  /// eval row by row. Precondition: equal row counts. Default: single calls.
   virtual void eval_batch(const DirectionsRef& wo, const DirectionsRef& wi, Eigen::Ref<RgbRows> out) const;
 
   /// The direction drawn by sample. Default: cosine hemisphere.

@@ -36,6 +36,7 @@ class Copula {
  public:
   virtual ~Copula() = default;
 
+  /// d, 2 or more.
   [[nodiscard]] int dim() const noexcept { return dim_; }
 
   /// Natural log of the density. @param u n x d in [0,1]. @return n values, -inf where the density is 0.
@@ -92,7 +93,7 @@ class Copula {
   /// value that is 0 by cancellation). @throws as the function of that name; std::invalid_argument for digits.
   [[nodiscard]] std::vector<BigFloat> exact(Quantity quantity, const PointsRef& u, int digits) const;
 
-  static constexpr int kMostDigits = 10'000;
+  static constexpr int kMostDigits = 10'000;  ///< of exact
 
  protected:
   /// @throws std::invalid_argument unless dim >= 2.

@@ -43,13 +43,13 @@ struct FamilyInfo {
   std::vector<Theta>
       examples;  ///< weak, medium and extreme dependence; those admissible in a dimension are tested in it
 
-  std::function<CopulaPtr(int dim, const Theta&)> make_unchecked;
+  std::function<CopulaPtr(int dim, const Theta&)> make_unchecked;  ///< make without its checks
   std::function<double(const Theta&)> tau;            ///< Kendall's tau of any pair; NaN if pairs differ or unknown
   std::function<Theta(double tau)> theta_from_tau;    ///< inverse of tau; empty unless there is exactly one parameter
   std::function<TailDependence(const Theta&)> tails;  ///< lower and upper tail dependence coefficients; NaN as tau
   std::string definition{};  ///< of a family that is not registered: the JSON that makes it, to be stored with a model
-  Dimensions dimensions{};
-  Rotation rotation{};  ///< see rotated_family.hpp
+  Dimensions dimensions{};   ///< that it has
+  Rotation rotation{};       ///< see rotated_family.hpp
 
   /// @throws std::invalid_argument (number of parameters, dim < 2) or std::domain_error naming family, parameter,
   /// value, dimension and the admissible interval or dimensions.

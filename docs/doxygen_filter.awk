@@ -13,8 +13,8 @@ function snake(name, text) {
 # Makes a group of the declarations that begin in column `indent` behind the comment that begins on line `first`.
 function group(first, indent, i, declarations, begins) {
   begins = "^" indent
-  for (i = first; lines[i] ~ begins "\\/\\/\\/"; ++i) {}
-  for (; i <= NR && lines[i] != "" && lines[i] !~ begins "\\/\\/|^ ?[a-z]+:$|^}  | = (delete|default);"; ++i) {
+  for (i = first; lines[i] ~ begins "///"; ++i) {}
+  for (; i <= NR && lines[i] != "" && lines[i] !~ begins "//|^ ?[a-z]+:$|^}  | = (delete|default);"; ++i) {
     if (indent != "" && lines[i] ~ /^}/) break
     if (lines[i] ~ begins "(struct|class|concept|namespace) ") return
     if (lines[i] ~ begins "[^ }]" && lines[i] !~ begins "template") ++declarations

@@ -37,7 +37,7 @@ struct AnalyticInfo {
   std::vector<AnalyticParameter> parameters;
   std::vector<AnalyticValues> examples;  ///< from smooth to rough, extremes included; the conformance tests visit each
 
-  std::function<BrdfPtr(const AnalyticValues&)> make_unchecked;
+  std::function<BrdfPtr(const AnalyticValues&)> make_unchecked;  ///< make, given values within their bounds
 
   /// The model of the list that this one is where isotropic, with the values but those of parameters with isotropic_as;
   /// empty for none.

@@ -26,7 +26,7 @@ struct BasisInfo {
   std::string source;           ///< reference
   std::size_t learns_from = 0;  ///< how many other tables a fit needs at least
 
-  std::function<BrdfPtr(const BasisData& data, double max_bytes)> fit_unchecked;
+  std::function<BrdfPtr(const BasisData& data, double max_bytes)> fit_unchecked;  ///< fit, given sound data
 
   /// The model of the table within a budget: bytes() <= max_bytes, unless the model has one size only, which
   /// on_message is then told. @param max_bytes > 0, infinity for no limit.
