@@ -2,7 +2,7 @@
 /// Half-tail copula, a family in the form of those in families/.
 ///   psi(t) = (1-theta) e^-t + theta / (1+t),  the Laplace transform of a frailty that is 1, or exponential with
 ///   probability theta;  psi^-1 by Newton's method
-///   0 < theta < 1 in any dimension;  tau = c theta - (c - 1/3) theta^2, c = X
+///   0 < theta < 1 in any dimension;  tau = c theta - (c - 1/3) theta^2, c = 10 - 16 e E_1(1)
 ///   lambda_L = 1/2 for every theta;  lambda_U = 0
 /// tau = 1 + 4 int t psi'(t) du at psi(t) = u (Nelsen 2006, Corollary 5.1.4).
 ///
