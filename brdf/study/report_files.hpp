@@ -5,7 +5,6 @@
 
 namespace sklar::brdf::report {
 
-/// The page's text, style, and shader of the live sphere.
 [[nodiscard]] std::string_view page_html();
 [[nodiscard]] std::string_view page_css();
 [[nodiscard]] std::string_view sphere_glsl();
