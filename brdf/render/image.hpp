@@ -1,10 +1,11 @@
 #pragma once
 /// Linear RGB pictures and their two file formats: OpenEXR (linear, for measuring) and PNG (sRGB, for looking).
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "plot/bytes.hpp"
 
 namespace sklar::brdf {
 
@@ -29,12 +30,7 @@ struct Image {
   }
 };
 
-/// 8-bit sRGB bytes (IEC 61966-2-1), three a pixel, in the order of Image.
-struct Bytes {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgb;
-};
+using plot::Bytes;
 
 /// The sRGB transfer curve, [0,1] -> [0,1]; values outside are clipped, NaN becomes 0.
 [[nodiscard]] double srgb_encode(double linear);

@@ -17,6 +17,12 @@
 namespace sklar::brdf {
 namespace {
 
+using plot::Axis;
+using plot::Line;
+using plot::LinePlot;
+using plot::Marker;
+using plot::Scale;
+
 constexpr double kDark = 0.01;  ///< of the mean of the picture, added to what differences are relative to
 constexpr int kCoverage = 16;   ///< rays that decide what a pixel shows
 constexpr Marker kMarkers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
@@ -55,7 +61,7 @@ std::vector<std::string> samplers_of(std::span<const ConvergenceRow> rows) {
 /// A logarithmic axis with room for markers at its ends, and ticks at 1, 2 and 5 of each decade.
 Axis roomy(const std::string& label, const std::vector<double>& values) {
   constexpr double kRoom = 1.3;
-  Axis axis = fitted({.label = label, .scale = Scale::logarithmic}, values);
+  Axis axis = plot::fitted({.label = label, .scale = Scale::logarithmic}, values);
   axis.low /= kRoom;
   axis.high *= kRoom;
   const auto exponent = [](double value) { return static_cast<int>(std::floor(std::log10(value))); };
@@ -216,7 +222,7 @@ std::string convergence_csv(std::span<const ConvergenceRow> rows) {
   return text;
 }
 
-Page convergence_page(std::span<const ConvergenceRow> rows, const std::string& title) {
+plot::Page convergence_page(std::span<const ConvergenceRow> rows, const std::string& title) {
   const bool own = !rows.empty() && !std::isnan(rows.front().errors.of_materials);
   const auto error = own ? &PictureErrors::of_materials : &PictureErrors::rms;
   std::vector<double> samples_all, seconds_all, errors_all, powers;
@@ -233,7 +239,7 @@ Page convergence_page(std::span<const ConvergenceRow> rows, const std::string& t
   LinePlot seconds{.title = "equal time", .x = roomy("processor seconds", seconds_all), .y = y};
   const std::vector<std::string> names = samplers_of(rows);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    Line line{.label = names[k], .colour = series_colour(k), .marker = kMarkers[k % std::size(kMarkers)]};
+    Line line{.label = names[k], .colour = plot::series_colour(k), .marker = kMarkers[k % std::size(kMarkers)]};
     std::vector<double> time;
     for (const ConvergenceRow& row : rows) {
       if (row.sampler != names[k]) continue;

@@ -9,7 +9,7 @@
 #include "brdf/progress.hpp"
 #include "brdf/render/image.hpp"
 #include "brdf/render/scene.hpp"
-#include "brdf/study/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace sklar::brdf {
 
@@ -85,6 +85,6 @@ struct MeasuredPicture {
 [[nodiscard]] std::string convergence_csv(std::span<const ConvergenceRow> rows);
 
 /// The error of the pixels of the materials (of all pixels where there are none) against samples and against seconds.
-[[nodiscard]] Page convergence_page(std::span<const ConvergenceRow> rows, const std::string& title);
+[[nodiscard]] plot::Page convergence_page(std::span<const ConvergenceRow> rows, const std::string& title);
 
 }  // namespace sklar::brdf

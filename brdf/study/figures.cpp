@@ -8,10 +8,20 @@
 
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/study/image_metrics.hpp"
-#include "brdf/study/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace sklar::brdf {
 namespace {
+
+using plot::Axis;
+using plot::Colour;
+using plot::HeatMap;
+using plot::ImageGrid;
+using plot::Line;
+using plot::LinePlot;
+using plot::Page;
+using plot::Panel;
+using plot::Scale;
 
 constexpr double kGain = 5;
 constexpr std::size_t kGreen = 1;
@@ -43,7 +53,7 @@ std::vector<const View*> reference_and(const View& reference, std::span<const Vi
 /// that agree all show.
 Line styled(const std::string& label, std::size_t index) {
   if (index == 0) return {.label = label, .width = 3.6};
-  return {.label = label, .colour = series_colour(index - 1), .dashed = index % 2 == 0};
+  return {.label = label, .colour = plot::series_colour(index - 1), .dashed = index % 2 == 0};
 }
 
 Line margin(const View& view, std::size_t index, const Eigen::ArrayXd& share, double (*centre)(int)) {
@@ -122,7 +132,7 @@ Bytes false_colour_difference(const Image& reference, const Image& model, double
     for (std::size_t c = n; c < n + 3; ++c) {
       difference += std::abs(srgb_encode(exposure * reference.rgb[c]) - srgb_encode(exposure * model.rgb[c])) / 3;
     }
-    const Colour colour = viridis(gain * difference);
+    const Colour colour = plot::viridis(gain * difference);
     for (const double value : {colour.red, colour.green, colour.blue}) {
       bytes.rgb.push_back(static_cast<std::uint8_t>(std::lround(255 * value)));
     }
@@ -147,7 +157,7 @@ void write_sphere_figure(const std::filesystem::path& path, const std::string& t
                             "mean \u0394E_{00} " + fixed(errors.delta_e_2000, 2)});
   }
   grid.colour_bar = Axis{.label = "absolute difference of displayed values", .low = 0, .high = 1 / kGain};
-  write_grid(path, grid);
+  plot::write_grid(path, grid);
 }
 
 void write_margin_figure(const std::filesystem::path& path, const std::string& title, const View& reference,
@@ -166,7 +176,7 @@ void write_margin_figure(const std::filesystem::path& path, const std::string& t
     phi_d.lines.push_back(margin(*view, index, share.phi_d, Grid::phi_d_centre));
     ++index;
   }
-  write_page(path, {.title = title + ": margins, green", .panels = {theta_h, theta_d, phi_d}});
+  plot::write_page(path, {.title = title + ": margins, green", .panels = {theta_h, theta_d, phi_d}});
 }
 
 void write_joint_figure(const std::filesystem::path& path, const std::string& title, const View& reference,
@@ -191,7 +201,7 @@ void write_joint_figure(const std::filesystem::path& path, const std::string& ti
       map.colour.low = highest * std::pow(10, -kDecades);
     }
   }
-  write_page(path, page);
+  plot::write_page(path, page);
 }
 
 void write_albedo_figure(const std::filesystem::path& path, const std::string& title, const View& reference,
@@ -199,7 +209,7 @@ void write_albedo_figure(const std::filesystem::path& path, const std::string& t
   const std::vector<const View*> views = reference_and(reference, models);
   double highest = 0;
   for (const View* view : views) highest = std::max(highest, view->albedo.albedo.maxCoeff());
-  Axis albedo = fitted({}, {0, highest});
+  Axis albedo = plot::fitted({}, {0, highest});
   albedo.label = "directional albedo";
   constexpr std::array<const char*, 3> kNames{"red", "green", "blue"};
   Page page{.title = title + ": albedo"};
@@ -218,7 +228,7 @@ void write_albedo_figure(const std::filesystem::path& path, const std::string& t
     }
     page.panels.push_back(std::move(plot));
   }
-  write_page(path, page);
+  plot::write_page(path, page);
 }
 
 std::vector<std::filesystem::path> write_figures(const std::filesystem::path& folder, const std::string& name,

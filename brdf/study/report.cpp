@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "brdf/study/axis.hpp"
 #include "brdf/study/base64.hpp"
 #include "brdf/study/curves.hpp"
 #include "brdf/study/figures.hpp"
 #include "brdf/study/report_files.hpp"
 #include "copula/json_fields.hpp"
+#include "plot/axis.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -29,7 +29,7 @@ Json curves(const std::string& text) {
 Json colour_map() {
   Json colours = Json::array();
   for (int n = 0; n < 256; ++n) {
-    const Colour colour = viridis(n / 255.0);
+    const plot::Colour colour = plot::viridis(n / 255.0);
     Json entry = Json::array();
     for (const double value : {colour.red, colour.green, colour.blue}) entry.push_back(std::lround(255 * value));
     colours.push_back(std::move(entry));

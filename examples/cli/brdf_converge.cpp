@@ -84,7 +84,7 @@ void write_sheet(const std::vector<brdf::Drawing>& drawings, const brdf::Referen
   };
   const int most = std::min(kSheetSamples, options.samples);
   const double budget = most * seconds_a_sample(drawings.front().name);
-  brdf::ImageGrid grid;
+  plot::ImageGrid grid;
   grid.title = "equal time";
   grid.rows.resize(1);
   for (const brdf::Drawing& drawing : drawings) {
@@ -97,7 +97,7 @@ void write_sheet(const std::vector<brdf::Drawing>& drawings, const brdf::Referen
   }
   grid.rows[0].push_back({to_srgb(truth, exposure), std::to_string(2 * options.reference) + " samples"});
   grid.column_labels.emplace_back("reference");
-  write_grid(path, grid);
+  plot::write_grid(path, grid);
 }
 
 std::string table(const Rows& rows) {
@@ -169,8 +169,8 @@ void run(Options options, bool json) {
   const std::string title = std::filesystem::path(options.scene).stem().string() + ", " + std::to_string(scene.width) +
                             " x " + std::to_string(scene.height) + " pixels";
   const auto file = [&](const char* name) { return options.folder / name; };
-  write_page(file("convergence.png"), convergence_page(rows, title));
-  write_page(file("convergence.svg"), convergence_page(rows, title));
+  plot::write_page(file("convergence.png"), convergence_page(rows, title));
+  plot::write_page(file("convergence.svg"), convergence_page(rows, title));
   write_sheet(drawings, reference, rows, options, file("equal_time.png"));
   if (json) {
     print_json(json_of(rows));

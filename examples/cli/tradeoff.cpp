@@ -104,7 +104,7 @@ void run_models(const Options& options, bool json) {
     rows = brdf::measure_model_tradeoff(*table, families, measure, [&](const auto& what) { steps.show(what); });
   }
   if (!options.csv.empty()) write_output(options.csv, to_csv(rows, table->name));
-  if (!options.picture.empty()) brdf::write_page(options.picture, to_page(rows, table->name));
+  if (!options.picture.empty()) plot::write_page(options.picture, to_page(rows, table->name));
   if (json) return print_json(to_json(rows, table->name));
   write_output("", to_table(rows));
 }
@@ -128,7 +128,7 @@ void run(Options options, const Common& common) {
   if (!options.csv.empty()) write_output(options.csv, csv_of(rows, options.measure.dim));
   if (!options.picture.empty()) {
     const std::string title = "Speed and accuracy, d = " + std::to_string(options.measure.dim);
-    brdf::write_page(options.picture, tradeoff_page(rows, title));
+    plot::write_page(options.picture, tradeoff_page(rows, title));
   }
   if (common.json) return print_json(json_of(rows, options.measure));
   write_output("", table_of(rows));

@@ -49,38 +49,38 @@ constexpr std::array<Cost, 2> kCosts = {
     {{"bytes", &Row::best_for_bytes, [](const Row& row) { return static_cast<double>(row.bytes); }},
      {"ns an RGB value, in a batch", &Row::best_for_ns, [](const Row& row) { return row.batch_ns; }}}};
 
-void add_point(brdf::Line& line, const Row& row, const Cost& cost) {
+void add_point(plot::Line& line, const Row& row, const Cost& cost) {
   line.x.push_back(cost.value(row));
   line.y.push_back(row.log1p_mae);
 }
 
 /// The models of each family and mode, in order.
-std::vector<brdf::Line> series(std::span<const Row> rows, const Cost& cost) {
-  std::vector<brdf::Line> lines;
+std::vector<plot::Line> series(std::span<const Row> rows, const Cost& cost) {
+  std::vector<plot::Line> lines;
   std::vector<std::string> families;
   for (const Row& row : rows) {
     if (!row.error.empty()) continue;
     const std::string label = row.mode + ", " + row.family;
-    const auto line = std::ranges::find(lines, label, &brdf::Line::label);
+    const auto line = std::ranges::find(lines, label, &plot::Line::label);
     if (line != lines.end()) {
       add_point(*line, row, cost);
       continue;
     }
     const auto family = std::ranges::find(families, row.family);
-    const auto colour = brdf::series_colour(static_cast<std::size_t>(family - families.begin()));
+    const auto colour = plot::series_colour(static_cast<std::size_t>(family - families.begin()));
     if (family == families.end()) families.push_back(row.family);
     const bool paper = row.mode == "paper";
     lines.push_back({.label = label,
                      .colour = colour,
                      .dashed = paper,
                      .width = 1.2,
-                     .marker = paper ? brdf::Marker::square : brdf::Marker::circle});
+                     .marker = paper ? plot::Marker::square : plot::Marker::circle});
     add_point(lines.back(), row, cost);
   }
   return lines;
 }
 
-brdf::LinePlot panel(std::span<const Row> rows, const Cost& cost) {
+plot::LinePlot panel(std::span<const Row> rows, const Cost& cost) {
   std::vector<Row> best;
   std::vector<double> x, y;
   for (const Row& row : rows) {
@@ -90,13 +90,13 @@ brdf::LinePlot panel(std::span<const Row> rows, const Cost& cost) {
     y.push_back(row.log1p_mae);
   }
   std::ranges::sort(best, {}, cost.value);
-  brdf::Line front{.label = "best for its cost", .width = 2.2, .marker = brdf::Marker::diamond};
+  plot::Line front{.label = "best for its cost", .width = 2.2, .marker = plot::Marker::diamond};
   for (const Row& row : best) add_point(front, row, cost);
-  brdf::LinePlot plot{.title = std::string("log1p_mae against ") + cost.label,
-                      .x = brdf::fitted({.label = cost.label, .scale = brdf::Scale::logarithmic}, x),
-                      .y = brdf::fitted({.label = "log1p_mae", .scale = brdf::Scale::logarithmic}, y),
+  plot::LinePlot plot{.title = std::string("log1p_mae against ") + cost.label,
+                      .x = plot::fitted({.label = cost.label, .scale = plot::Scale::logarithmic}, x),
+                      .y = plot::fitted({.label = "log1p_mae", .scale = plot::Scale::logarithmic}, y),
                       .lines = series(rows, cost)};
-  for (brdf::Axis* axis : {&plot.x, &plot.y}) {  // room for the markers
+  for (plot::Axis* axis : {&plot.x, &plot.y}) {  // room for the markers
     axis->low /= 1.3;
     axis->high *= 1.3;
   }
@@ -146,8 +146,8 @@ nlohmann::ordered_json to_json(std::span<const Row> rows, const std::string& mat
   return document;
 }
 
-brdf::Page to_page(std::span<const Row> rows, const std::string& material) {
-  brdf::Page page{.title = "Models of " + material, .panel_width = 460, .panel_height = 380};
+plot::Page to_page(std::span<const Row> rows, const std::string& material) {
+  plot::Page page{.title = "Models of " + material, .panel_width = 460, .panel_height = 380};
   for (const Cost& cost : kCosts) page.panels.emplace_back(panel(rows, cost));
   return page;
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "brdf/study/model_tradeoff.hpp"
-#include "brdf/study/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace sklar::cli {
 
@@ -16,6 +16,6 @@ namespace sklar::cli {
 
 /// Error against bytes and against nanoseconds: a colour a family, a line a mode, the models that no other beats in
 /// both joined in black.
-[[nodiscard]] brdf::Page to_page(std::span<const brdf::ModelTradeoffRow> rows, const std::string& material);
+[[nodiscard]] plot::Page to_page(std::span<const brdf::ModelTradeoffRow> rows, const std::string& material);
 
 }  // namespace sklar::cli

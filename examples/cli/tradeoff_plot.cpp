@@ -8,14 +8,14 @@
 namespace sklar::cli {
 namespace {
 
-using brdf::Axis;
-using brdf::Line;
-using brdf::LinePlot;
-using brdf::Marker;
-using brdf::Scale;
+using plot::Axis;
+using plot::Line;
+using plot::LinePlot;
+using plot::Marker;
+using plot::Scale;
 
 constexpr Marker kMarkers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
-constexpr brdf::Colour kInk{0.13, 0.13, 0.13};
+constexpr plot::Colour kInk{0.13, 0.13, 0.13};
 
 /// The different values of a member, in order of appearance.
 std::vector<std::string> names(std::span<const TradeoffRow> rows, std::string TradeoffRow::*member) {
@@ -33,7 +33,7 @@ struct FamilyLines {
 };
 
 FamilyLines family_lines(std::span<const TradeoffRow> rows, const std::vector<std::string>& levels,
-                         const brdf::Colour& colour) {
+                         const plot::Colour& colour) {
   constexpr double kFaint = 0.4;
   const auto faint = [](double channel) { return 1 - kFaint * (1 - channel); };
   FamilyLines lines;
@@ -62,7 +62,7 @@ LinePlot panel(std::span<const TradeoffRow> rows, const std::string& quantity, c
     std::vector<TradeoffRow> own;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
                  [&](const TradeoffRow& row) { return row.family == families[f] && row.quantity == quantity; });
-    FamilyLines lines = family_lines(own, levels, brdf::series_colour(f));
+    FamilyLines lines = family_lines(own, levels, plot::series_colour(f));
     plot.lines.push_back(std::move(lines.entry));
     plot.lines.push_back(std::move(lines.path));
     above.insert(above.end(), lines.spans.begin(), lines.spans.end());
@@ -77,7 +77,7 @@ LinePlot panel(std::span<const TradeoffRow> rows, const std::string& quantity, c
 
 }  // namespace
 
-brdf::Page tradeoff_page(std::span<const TradeoffRow> rows, const std::string& title) {
+plot::Page tradeoff_page(std::span<const TradeoffRow> rows, const std::string& title) {
   std::vector<TradeoffRow> shown;
   std::vector<double> ns, errors;
   for (const TradeoffRow& row : rows) {
@@ -86,13 +86,13 @@ brdf::Page tradeoff_page(std::span<const TradeoffRow> rows, const std::string& t
     ns.push_back(row.ns);
     errors.insert(errors.end(), {row.errors.maximum, row.errors.median});
   }
-  Axis x = brdf::fitted({.label = "ns a row", .scale = Scale::logarithmic}, ns);
-  Axis y = brdf::fitted({.label = "error: the largest, down to the median", .scale = Scale::digits}, errors);
+  Axis x = plot::fitted({.label = "ns a row", .scale = Scale::logarithmic}, ns);
+  Axis y = plot::fitted({.label = "error: the largest, down to the median", .scale = Scale::digits}, errors);
   x.low /= 2;  // room for the markers
   x.high *= 2;
   y.low = std::pow(y.low, 1.1);
   y.high = std::pow(y.high, 0.9);
-  brdf::Page page{.title = title, .panel_width = 340, .panel_height = 380};
+  plot::Page page{.title = title, .panel_width = 340, .panel_height = 380};
   for (const std::string& quantity : names(shown, &TradeoffRow::quantity)) {
     page.panels.emplace_back(panel(shown, quantity, x, y));
   }

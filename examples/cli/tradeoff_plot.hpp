@@ -4,13 +4,13 @@
 #include <span>
 #include <string>
 
-#include "brdf/study/plot.hpp"
 #include "copula/study/tradeoff.hpp"
+#include "plot/plot.hpp"
 
 namespace sklar::cli {
 
 /// Error against nanoseconds a row: a panel a quantity, a colour a family, a marker a level at its largest error, with
 /// a line down to its median. Families without parameters are left out: they have nothing to compute.
-[[nodiscard]] brdf::Page tradeoff_page(std::span<const TradeoffRow> rows, const std::string& title);
+[[nodiscard]] plot::Page tradeoff_page(std::span<const TradeoffRow> rows, const std::string& title);
 
 }  // namespace sklar::cli

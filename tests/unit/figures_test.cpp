@@ -8,7 +8,7 @@
 
 #include "brdf/analytic/ggx.hpp"
 #include "brdf/analytic/lambert.hpp"
-#include "brdf/study/axis.hpp"
+#include "plot/axis.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace sklar::brdf {
@@ -42,8 +42,8 @@ TEST(FalseColour, MeanDifferenceOfDisplayedValues) {
   Image model(2, 1);
   model.rgb = {0, 0, 0, 0.3F, 0, 0};
   const Bytes bytes = false_colour_difference(reference, model, 2.0, 0.5);
-  const Colour none = viridis(0);
-  const Colour some = viridis(0.5 * srgb_encode(2 * 0.3F) / 3);
+  const plot::Colour none = plot::viridis(0);
+  const plot::Colour some = plot::viridis(0.5 * srgb_encode(2 * 0.3F) / 3);
   EXPECT_EQ(bytes.rgb[0], std::lround(255 * none.red));
   EXPECT_EQ(bytes.rgb[3], std::lround(255 * some.red));
   EXPECT_EQ(bytes.rgb[4], std::lround(255 * some.green));

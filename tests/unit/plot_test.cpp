@@ -1,4 +1,4 @@
-#include "brdf/study/plot.hpp"
+#include "plot/plot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,14 @@
 #include <limits>
 #include <stdexcept>
 
+#include "brdf/render/image.hpp"
 #include "copula/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace sklar::brdf {
+namespace sklar::plot {
 namespace {
+
+using brdf::read_png;
 
 std::vector<std::string> texts(const Axis& axis) {
   std::vector<std::string> all;
@@ -164,4 +167,4 @@ TEST_F(PlotFile, BadArgumentsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

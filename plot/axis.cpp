@@ -1,4 +1,4 @@
-#include "brdf/study/axis.hpp"
+#include "plot/axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "copula/error.hpp"
 
-namespace sklar::brdf {
+namespace sklar::plot {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -129,4 +129,4 @@ Colour series_colour(std::size_t index) {
   return kColours[index % kColours.size()];
 }
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace sklar::brdf {
+namespace sklar::plot {
 
 /// How values are spread along an axis.
 enum class Scale {
@@ -52,4 +52,4 @@ struct Colour {
 /// Colours told apart by all eyes (Okabe and Ito 2008), without black, repeating after seven.
 [[nodiscard]] Colour series_colour(std::size_t index);
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

@@ -9,11 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "brdf/render/image.hpp"
-#include "brdf/study/axis.hpp"
-#include "brdf/study/marker.hpp"
+#include "plot/axis.hpp"
+#include "plot/bytes.hpp"
+#include "plot/marker.hpp"
 
-namespace sklar::brdf {
+namespace sklar::plot {
 
 /// A line or points of a plot.
 struct Line {
@@ -74,4 +74,4 @@ void write_page(const std::filesystem::path& path, const Page& page);
 /// One pixel of a PNG for each pixel of a picture. Errors as write_page.
 void write_grid(const std::filesystem::path& path, const ImageGrid& grid);
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

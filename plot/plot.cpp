@@ -1,12 +1,12 @@
-#include "brdf/study/plot.hpp"
+#include "plot/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "brdf/study/canvas.hpp"
+#include "plot/canvas.hpp"
 
-namespace sklar::brdf {
+namespace sklar::plot {
 namespace {
 
 constexpr Colour kInk{0.13, 0.13, 0.13};
@@ -303,4 +303,4 @@ void write_grid(const std::filesystem::path& path, const ImageGrid& grid) {
   canvas.save();
 }
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

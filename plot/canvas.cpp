@@ -1,4 +1,4 @@
-#include "brdf/study/canvas.hpp"
+#include "plot/canvas.hpp"
 
 #include <cairo-svg.h>
 #include <cairo.h>
@@ -12,7 +12,7 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 
-namespace sklar::brdf {
+namespace sklar::plot {
 namespace {
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
@@ -212,4 +212,4 @@ void Canvas::save() {
   write_file(sheet_->path, vector ? sheet_->svg : png);
 }
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "brdf/render/image.hpp"
-#include "brdf/study/axis.hpp"
-#include "brdf/study/marker.hpp"
+#include "plot/axis.hpp"
+#include "plot/bytes.hpp"
+#include "plot/marker.hpp"
 
-namespace sklar::brdf {
+namespace sklar::plot {
 
 /// How text is drawn.
 struct Font {
@@ -62,4 +62,4 @@ class Canvas {
   std::unique_ptr<Sheet> sheet_;
 };
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot

@@ -1,9 +1,9 @@
 #pragma once
 /// The shapes of the points of a plot.
 
-namespace sklar::brdf {
+namespace sklar::plot {
 
 /// The signs of points in a plot.
 enum class Marker { none, circle, square, triangle, diamond };
 
-}  // namespace sklar::brdf
+}  // namespace sklar::plot
