@@ -106,12 +106,20 @@ void Canvas::line(const std::vector<Point>& points, const Colour& colour, double
   sheet_->colour(colour);
   cairo_set_line_width(sheet_->cairo, width);
   cairo_set_line_join(sheet_->cairo, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_cap(sheet_->cairo, dashed ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);  // no gaps between pieces
   constexpr double kDashes[] = {5, 3};
   cairo_set_dash(sheet_->cairo, kDashes, dashed ? 2 : 0, 0);
   cairo_new_path(sheet_->cairo);
   for (const Point& point : points) cairo_line_to(sheet_->cairo, point.x, point.y);
   cairo_stroke(sheet_->cairo);
   cairo_set_dash(sheet_->cairo, nullptr, 0, 0);
+}
+
+void Canvas::area(const std::vector<Point>& corners, const Colour& colour) {
+  sheet_->colour(colour);
+  cairo_new_path(sheet_->cairo);
+  for (const Point& point : corners) cairo_line_to(sheet_->cairo, point.x, point.y);
+  cairo_fill(sheet_->cairo);
 }
 
 void Canvas::marker(Point centre, Marker marker, const Colour& colour) {
@@ -123,6 +131,13 @@ void Canvas::marker(Point centre, Marker marker, const Colour& colour) {
   switch (marker) {
     case Marker::none:
       return;
+    case Marker::dot: {
+      constexpr double kDot = 1.6;
+      cairo_arc(sheet_->cairo, centre.x, centre.y, kDot, 0, 2 * std::numbers::pi);
+      sheet_->colour(colour);
+      cairo_fill(sheet_->cairo);
+      return;
+    }
     case Marker::circle:
       cairo_arc(sheet_->cairo, centre.x, centre.y, kRadius, 0, 2 * std::numbers::pi);
       break;

@@ -42,6 +42,7 @@ class Canvas {
   void fill(const Box& box, const Colour& colour);
   void stroke(const Box& box, const Colour& colour, double width);
   void line(const std::vector<Point>& points, const Colour& colour, double width, bool dashed = false);
+  void area(const std::vector<Point>& corners, const Colour& colour);
   void marker(Point centre, Marker marker, const Colour& colour);
   void picture(Point corner, const Bytes& bytes);
 

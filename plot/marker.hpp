@@ -3,7 +3,7 @@
 
 namespace sklar::plot {
 
-/// The signs of points in a plot.
-enum class Marker { none, circle, square, triangle, diamond };
+/// The signs of points in a plot; a dot is small and without a rim.
+enum class Marker { none, dot, circle, square, triangle, diamond };
 
 }  // namespace sklar::plot

@@ -16,7 +16,8 @@ constexpr double kMargin = 14;
 constexpr double kBar = 12;  ///< thickness of a colour bar
 const Font kTitle{.size = 16, .bold = true};
 const Font kHeading{.size = 13, .bold = true};
-const Font kLabel{.size = 12};
+constexpr double kLabelSize = 12;
+const Font kLabel{.size = kLabelSize};
 const Font kTickFont{.size = 11};
 
 double height_of(const std::string& text, const Font& font) {
@@ -61,11 +62,21 @@ void draw_axes(Canvas& canvas, const Box& box, const Axis& x, const Axis& y, boo
   canvas.text({left, box.y + box.height / 2}, y.label, kLabel, 0.5, true);
 }
 
+void fill_below(Canvas& canvas, std::vector<Point> corners, const Colour& colour, double bottom) {
+  if (corners.empty()) return;
+  constexpr double kPale = 0.4;
+  const auto pale = [](double channel) { return 1 - kPale * (1 - channel); };
+  corners.insert(corners.begin(), {corners.front().x, bottom});
+  corners.push_back({corners.back().x, bottom});
+  canvas.area(corners, {pale(colour.red), pale(colour.green), pale(colour.blue)});
+}
+
 void draw_lines(Canvas& canvas, const Box& box, const LinePlot& plot, const Axis& x, const Axis& y) {
   canvas.clip(box);
   for (const Line& line : plot.lines) {
     std::vector<Point> points;
     const auto flush = [&] {
+      if (line.filled) fill_below(canvas, points, line.colour, box.y + box.height);
       if (line.width > 0) canvas.line(points, line.colour, line.width, line.dashed);
       for (const Point& point : points) canvas.marker(point, line.marker, line.colour);
       points.clear();
@@ -180,20 +191,44 @@ std::vector<Line> legend_of(const std::vector<Panel>& panels) {
   return entries;
 }
 
+constexpr double kLegendGap = 22;
+constexpr double kLegendLine = kLabelSize + 6;
+
+double sample_width(const Line& entry) {
+  return entry.width > 0 ? 26 : 9;
+}
+
+double entry_width(Canvas& canvas, const Line& entry) {
+  return sample_width(entry) + 6 + canvas.text_width(entry.label, kLabel) + kLegendGap;
+}
+
+/// Entries in lines that are no wider than the page.
+std::vector<std::vector<Line>> legend_lines(Canvas& canvas, const std::vector<Line>& entries, double width) {
+  std::vector<std::vector<Line>> lines;
+  double left = 0;
+  for (const Line& entry : entries) {
+    const double own = entry_width(canvas, entry);
+    if (lines.empty() || own > left) {
+      lines.emplace_back();
+      left = width + kLegendGap;
+    }
+    lines.back().push_back(entry);
+    left -= own;
+  }
+  return lines;
+}
+
 void draw_legend(Canvas& canvas, Point centre, const std::vector<Line>& entries) {
-  constexpr double kSample = 26;
-  constexpr double kMarkerSample = 9;
-  constexpr double kGap = 22;
-  double width = -kGap;
-  const auto sample = [](const Line& entry) { return entry.width > 0 ? kSample : kMarkerSample; };
-  for (const Line& entry : entries) width += sample(entry) + 6 + canvas.text_width(entry.label, kLabel) + kGap;
+  double width = -kLegendGap;
+  for (const Line& entry : entries) width += entry_width(canvas, entry);
   double x = centre.x - width / 2;
   for (const Line& entry : entries) {
     const double y = centre.y - 0.35 * kLabel.size;
-    if (entry.width > 0) canvas.line({{x, y}, {x + kSample, y}}, entry.colour, entry.width, entry.dashed);
-    canvas.marker({x + sample(entry) / 2, y}, entry.marker, entry.colour);
-    canvas.text({x + sample(entry) + 6, centre.y}, entry.label, kLabel);
-    x += sample(entry) + 6 + canvas.text_width(entry.label, kLabel) + kGap;
+    const double sample = sample_width(entry);
+    if (entry.width > 0) canvas.line({{x, y}, {x + sample, y}}, entry.colour, entry.width, entry.dashed);
+    canvas.marker({x + sample / 2, y}, entry.marker, entry.colour);
+    canvas.text({x + sample + 6, centre.y}, entry.label, kLabel);
+    x += entry_width(canvas, entry);
   }
 }
 
@@ -257,13 +292,18 @@ void write_page(const std::filesystem::path& path, const Page& page) {
   if (page.panels.empty() || page.columns < 1) throw std::invalid_argument("write_page: no panels");
   const int columns = std::min(page.columns, static_cast<int>(page.panels.size()));
   const int rows = (static_cast<int>(page.panels.size()) + columns - 1) / columns;
-  const std::vector<Line> legend = legend_of(page.panels);
   const double title = height_of(page.title, kTitle);
-  const double top = kMargin + title + (legend.empty() ? 0 : kLabel.size + 14);
   const double width = 2 * kMargin + columns * page.panel_width + (columns - 1) * kMargin;
+  Canvas ruler(path, 1, 1, 1);  // measures text, is never saved
+  const auto legend = legend_lines(ruler, legend_of(page.panels), width - 2 * kMargin);
+  const double top = kMargin + title + (legend.empty() ? 0 : static_cast<double>(legend.size()) * kLegendLine + 8);
   Canvas canvas(path, width, top + rows * (page.panel_height + kMargin), 2);
-  canvas.text({width / 2, kMargin + kTitle.size}, page.title, kTitle, 0.5);
-  draw_legend(canvas, {width / 2, kMargin + title + kLabel.size + 2}, legend);
+  draw_fitted(canvas, {width / 2, kMargin + kTitle.size}, page.title, kTitle, width - 2 * kMargin);
+  double baseline = kMargin + title + kLabel.size + 2;
+  for (const std::vector<Line>& line : legend) {
+    draw_legend(canvas, {width / 2, baseline}, line);
+    baseline += kLegendLine;
+  }
   for (std::size_t n = 0; n < page.panels.size(); ++n) {
     const int row = static_cast<int>(n) / columns;
     const int column = static_cast<int>(n) % columns;

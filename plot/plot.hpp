@@ -1,5 +1,6 @@
 #pragma once
-/// Plots as PNG or SVG: pages of line plots and heat maps, and grids of pictures. In every text `_{...}` is lowered and
+/// Plots as PNG or SVG: pages of line plots and heat maps, and grids of pictures. Legends of pages break into lines. In
+/// every text `_{...}` is lowered and
 /// `^{...}` raised.
 
 #include <Eigen/Core>
@@ -23,6 +24,7 @@ struct Line {
   bool dashed = false;
   double width = 1.6;  ///< 0: markers alone
   Marker marker = Marker::none;
+  bool filled = false;  ///< the area from the line down to the axis, paler than the line
 };
 
 /// Joined points; a point that an axis cannot show breaks its line.
@@ -43,6 +45,14 @@ struct HeatMap {
 
 /// One plot of a page.
 using Panel = std::variant<LinePlot, HeatMap>;
+
+/// The lines on which a function has a value, by marching squares: its values at the points of a grid are joined
+/// linearly along the sides of cells, straight across them. A cell with a value that is not finite has no line.
+/// @param x, y rising. @param values y.size() rows, x.size() columns.
+/// @return x and y of the ends of the pieces, a NaN behind each, all else left to the caller.
+/// @throws std::invalid_argument for a grid of another size.
+[[nodiscard]] Line contour(const std::vector<double>& x, const std::vector<double>& y, const Eigen::ArrayXXd& values,
+                           double level);
 
 /// Plots in rows and columns.
 struct Page {

@@ -118,11 +118,89 @@ TEST_F(PlotFile, MarkersStandAtThePointsAndInTheLegend) {
     return count(read_png(folder_ / "page.png")).red;
   };
   EXPECT_EQ(reds(Marker::none, 0.5), 0);
+  EXPECT_NEAR(reds(Marker::dot, 0.5), 2 * reds(Marker::dot, 2), 4);
   for (const Marker marker : {Marker::circle, Marker::square, Marker::triangle, Marker::diamond}) {
     const int of_the_legend = reds(marker, 2);  // the point is outside the axis
     EXPECT_GT(of_the_legend, 100);
     EXPECT_NEAR(reds(marker, 0.5), 2 * of_the_legend, 20);
   }
+}
+
+TEST_F(PlotFile, FilledLinesReachTheAxis) {
+  Page page = diagonal_page();
+  auto& line = std::get<LinePlot>(page.panels[0]).lines[0];
+  line.width = 0;
+  line.filled = true;
+  line.colour = {0, 0, 0};
+  write_page(folder_ / "page.png", page);
+  const Bytes bytes = read_png(folder_ / "page.png");
+  int pale = 0;  // 40 % black
+  for (std::size_t n = 0; n < bytes.rgb.size(); n += 3) pale += bytes.rgb[n] == 153 && bytes.rgb[n + 1] == 153;
+  EXPECT_GT(pale, 2 * 340 * 2 * 270 / 4) << "the triangle below the diagonal is about half of the panel";
+}
+
+TEST_F(PlotFile, LegendsBreakIntoLines) {
+  Page page = diagonal_page();
+  auto& plot = std::get<LinePlot>(page.panels[0]);
+  write_page(folder_ / "short.png", page);
+  for (const char* name : {"b", "c", "d", "e", "f"}) {
+    plot.lines.push_back({.label = std::string(30, name[0]), .x = {0, 1}, .y = {0, 1}});
+  }
+  write_page(folder_ / "long.png", page);
+  EXPECT_EQ(read_png(folder_ / "short.png").width, read_png(folder_ / "long.png").width);
+  EXPECT_GT(read_png(folder_ / "long.png").height, read_png(folder_ / "short.png").height + 20);
+}
+
+/// The ends of the pieces of a contour.
+std::vector<std::pair<double, double>> ends(const Line& line) {
+  std::vector<std::pair<double, double>> all;
+  for (std::size_t n = 0; n < line.x.size(); ++n) {
+    EXPECT_EQ(std::isnan(line.x[n]), n % 3 == 2);
+    if (n % 3 != 2) all.emplace_back(line.x[n], line.y[n]);
+  }
+  return all;
+}
+
+TEST(Contour, OfAPlaneIsStraight) {
+  const std::vector<double> x{0, 1, 3}, y{0, 2};
+  Eigen::ArrayXXd plane(2, 3);
+  plane << 0, 1, 3, 2, 3, 5;  // x + y
+  const auto points = ends(contour(x, y, plane, 2.5));
+  ASSERT_EQ(points.size(), 4u);
+  for (const auto& [across, up] : points) EXPECT_DOUBLE_EQ(across + up, 2.5);
+  EXPECT_TRUE(contour(x, y, plane, 7).x.empty());
+}
+
+TEST(Contour, OfACircleHasItsRadius) {
+  std::vector<double> z;
+  for (int n = -20; n <= 20; ++n) z.push_back(n / 10.0);
+  const Eigen::Map<const Eigen::ArrayXd> axis(z.data(), 41);
+  const Eigen::ArrayXXd squares = axis.square().replicate(1, 41) + axis.square().transpose().replicate(41, 1);
+  const auto points = ends(contour(z, z, squares, 2));
+  EXPECT_GT(points.size(), 80u);
+  constexpr double kChord = 0.01;  // a cell of side h: h^2 / 8
+  for (const auto& [across, up] : points) EXPECT_NEAR(across * across + up * up, 2, kChord);
+}
+
+TEST(Contour, OfASaddleGoesAroundTheFarCorners) {
+  Eigen::ArrayXXd saddle(2, 2);
+  saddle << 1, 0, 0, 0.9;
+  for (const double level : {0.4, 0.6}) {  // 0.475 in the middle
+    const auto points = ends(contour({0, 1}, {0, 1}, saddle, level));
+    ASSERT_EQ(points.size(), 4u);
+    for (std::size_t n = 0; n < 4; n += 2) {
+      const bool right = points[n].first + points[n + 1].first > 1;
+      const bool above = points[n].second + points[n + 1].second > 1;
+      EXPECT_EQ(right == above, level == 0.6) << "around a high corner";
+    }
+  }
+}
+
+TEST(Contour, LeavesOutCellsWithoutAValue) {
+  Eigen::ArrayXXd values(2, 3);
+  values << 0, 1, std::nan(""), 1, 0, 0;
+  EXPECT_EQ(ends(contour({0, 1, 2}, {0, 1}, values, 0.5)).size(), 4u) << "the first cell alone";
+  EXPECT_THROW((void)contour({0, 1}, {0, 1}, values, 0.5), std::invalid_argument);
 }
 
 TEST_F(PlotFile, PageAsSvg) {
