@@ -2,7 +2,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS sklar_copula sklar_families sklar_plot sklar_brdf EXPORT sklarTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-foreach(module copula families plot brdf)
+foreach(module copula families brdf)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sklar FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sklar FILES_MATCHING PATTERN "*.hpp")

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plot/bytes.hpp"
+#include "copula/plot/bytes.hpp"
 
 namespace sklar::brdf {
 

@@ -9,7 +9,7 @@
 #include "brdf/progress.hpp"
 #include "brdf/render/image.hpp"
 #include "brdf/render/scene.hpp"
-#include "plot/plot.hpp"
+#include "copula/plot/plot.hpp"
 
 namespace sklar::brdf {
 

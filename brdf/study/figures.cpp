@@ -8,7 +8,7 @@
 
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/study/image_metrics.hpp"
-#include "plot/plot.hpp"
+#include "copula/plot/plot.hpp"
 
 namespace sklar::brdf {
 namespace {

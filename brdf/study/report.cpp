@@ -9,7 +9,7 @@
 #include "brdf/study/figures.hpp"
 #include "brdf/study/report_files.hpp"
 #include "copula/json_fields.hpp"
-#include "plot/axis.hpp"
+#include "copula/plot/axis.hpp"
 
 namespace sklar::brdf {
 namespace {

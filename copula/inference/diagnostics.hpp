@@ -24,6 +24,7 @@ namespace sklar {
 /// @param t n values in [0,1]. @throws std::domain_error for another t.
 [[nodiscard]] Column kendall_distribution(const Copula& copula, const ColumnRef& t);
 
+/// See kendall_distribution.
 inline constexpr Index kKendallDraws = 20'000;
 
 /// The normal quantile of every entry. @param u n x d strictly in (0,1). @throws std::domain_error

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "brdf/study/model_tradeoff.hpp"
-#include "plot/plot.hpp"
+#include "copula/plot/plot.hpp"
 
 namespace sklar::cli {
 

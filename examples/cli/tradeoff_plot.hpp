@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "copula/plot/plot.hpp"
 #include "copula/study/tradeoff.hpp"
-#include "plot/plot.hpp"
 
 namespace sklar::cli {
 

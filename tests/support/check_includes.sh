@@ -13,15 +13,15 @@ complain() {
 # The project headers that the sources directly in a folder may include, as a regular expression.
 allowed() {
   core='copula/[^/]*'
-  root='copula/.*|families/.*|plot/.*|brdf/[^/]*'
+  root='copula/.*|families/.*|brdf/[^/]*'
   data="$root|brdf/(geometry|data)/.*"
   render="$data|brdf/(model|analytic|basis|sampling|render)/.*"
   case $1 in
     copula) echo "$core" ;;
     copula/symbolic | copula/simd) echo "$core|$1/.*" ;;
     copula/inference | copula/study) echo "$core|copula/symbolic/.*|$1/.*" ;;
+    copula/plot) echo "$core|$1/.*" ;;
     families) echo 'copula/.*|families/.*' ;;
-    plot) echo "$core|plot/.*" ;;
     brdf) echo "$root" ;;
     brdf/geometry) echo "$root|$1/.*" ;;
     brdf/data) echo "$data" ;;
@@ -34,11 +34,11 @@ allowed() {
   esac
 }
 
-for folder in $(find copula families plot brdf -type d); do
+for folder in $(find copula families brdf -type d); do
   pattern=$(allowed "$folder")
   [ -n "$pattern" ] || bad=1
   for file in $(find "$folder" -maxdepth 1 -name '*.[ch]pp'); do
-    found=$(grep -nE '^ *#include "(copula|families|plot|brdf|examples|tests)/' "$file" | grep -vE "\"($pattern)\"" || true)
+    found=$(grep -nE '^ *#include "(copula|families|brdf|examples|tests)/' "$file" | grep -vE "\"($pattern)\"" || true)
     [ -z "$found" ] || complain "$file may not include $found"
   done
 done
@@ -52,12 +52,12 @@ for family in $(sed -n '/^set(families/,/^)/p' families/CMakeLists.txt | grep -o
 done
 
 for library in nlopt 'OpenEXR|Imf|Imath' 'png\.h' cairo embree; do
-  files=$(grep -rlE --include='*.[ch]pp' "^ *#include [<\"]($library)" copula families plot brdf || true)
+  files=$(grep -rlE --include='*.[ch]pp' "^ *#include [<\"]($library)" copula families brdf || true)
   [ "$(echo "$files" | wc -w)" -le 1 ] || complain "more than one file includes $library: $files"
   case $files in *.hpp) complain "a header includes $library: $files" ;; esac
 done
 # json_fields.hpp is for the library's own sources.
-found=$(grep -rlE --include='*.hpp' '^ *#include [<"](nlohmann|tbb|CLI)/' copula families plot brdf | grep -v /json_fields.hpp || true)
+found=$(grep -rlE --include='*.hpp' '^ *#include [<"](nlohmann|tbb|CLI)/' copula families brdf | grep -v /json_fields.hpp || true)
 [ -z "$found" ] || complain "a header shows its users a private dependency: $found"
 
 exit $bad

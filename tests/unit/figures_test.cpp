@@ -8,7 +8,7 @@
 
 #include "brdf/analytic/ggx.hpp"
 #include "brdf/analytic/lambert.hpp"
-#include "plot/axis.hpp"
+#include "copula/plot/axis.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace sklar::brdf {

@@ -1,4 +1,4 @@
-#include "plot/plot.hpp"
+#include "copula/plot/plot.hpp"
 
 #include <gtest/gtest.h>
 

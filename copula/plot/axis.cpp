@@ -1,4 +1,4 @@
-#include "plot/axis.hpp"
+#include "copula/plot/axis.hpp"
 
 #include <algorithm>
 #include <array>

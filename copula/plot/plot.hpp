@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "plot/axis.hpp"
-#include "plot/bytes.hpp"
-#include "plot/marker.hpp"
+#include "copula/plot/axis.hpp"
+#include "copula/plot/bytes.hpp"
+#include "copula/plot/marker.hpp"
 
 namespace sklar::plot {
 

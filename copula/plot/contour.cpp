@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "plot/plot.hpp"
+#include "copula/plot/plot.hpp"
 
 namespace sklar::plot {
 namespace {

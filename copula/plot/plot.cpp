@@ -1,10 +1,10 @@
-#include "plot/plot.hpp"
+#include "copula/plot/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "plot/canvas.hpp"
+#include "copula/plot/canvas.hpp"
 
 namespace sklar::plot {
 namespace {

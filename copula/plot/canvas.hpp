@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "plot/axis.hpp"
-#include "plot/bytes.hpp"
-#include "plot/marker.hpp"
+#include "copula/plot/axis.hpp"
+#include "copula/plot/bytes.hpp"
+#include "copula/plot/marker.hpp"
 
 namespace sklar::plot {
 

@@ -1,4 +1,4 @@
-#include "plot/canvas.hpp"
+#include "copula/plot/canvas.hpp"
 
 #include <cairo-svg.h>
 #include <cairo.h>
