@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "copula/error.hpp"
 
@@ -14,7 +15,8 @@ std::string printed(const char* format, double value) {
 }
 
 double to_digits(int digits, double value) {
-  return std::stod(printed(("%." + std::to_string(digits) + "g").c_str(), value));
+  const std::string text = printed(("%." + std::to_string(digits) + "g").c_str(), value);
+  return std::strtod(text.c_str(), nullptr);  // std::stod throws below the smallest normal number
 }
 
 std::string csv_field(const std::string& text) {

@@ -15,6 +15,7 @@
 #include "brdf/study/curves.hpp"
 #include "brdf/study/live_sphere.hpp"
 #include "brdf/study/model_comparison.hpp"
+#include "brdf/study/table_text.hpp"
 #include "families/registry.hpp"
 
 namespace sklar::brdf {
@@ -56,6 +57,11 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
                                                                     {"foobar", "Zm9vYmFy"},
                                                                     {"\xff\xfe", "//4="}};
   for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64(bytes), text);
+}
+
+TEST(ToDigits, RoundsNumbersBelowTheNormalOnes) {
+  EXPECT_EQ(to_digits(3, 1.2345e-310), 1.23e-310);
+  EXPECT_EQ(to_digits(3, -1.2355e5), -1.24e5);
 }
 
 TEST(ReportPage, HoldsRowsPicturesAndCurves) {
