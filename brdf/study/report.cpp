@@ -7,7 +7,7 @@
 #include "brdf/study/base64.hpp"
 #include "brdf/study/curves.hpp"
 #include "brdf/study/figures.hpp"
-#include "brdf/study/report_files.hpp"
+#include "brdf/study/report_frame.hpp"
 #include "copula/json_fields.hpp"
 #include "copula/plot/axis.hpp"
 
@@ -37,23 +37,6 @@ Json colour_map() {
   return colours;
 }
 
-/// JSON in which no "</script>" or "<!--" can stand.
-std::string embedded(const Json& json) {
-  std::string text;
-  for (const char c : json.dump()) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
-std::string filled(std::string page, std::string_view marker, std::string_view text) {
-  return page.replace(page.find(marker), marker.size(), text);
-}
-
 }  // namespace
 
 std::string report_page(std::string_view rows, std::span<const ReportMaterial> materials) {
@@ -78,11 +61,7 @@ std::string report_page(std::string_view rows, std::span<const ReportMaterial> m
     throw std::invalid_argument("report_page: " + std::to_string(data["rows"].size()) + " rows, but " +
                                 std::to_string(next) + " spheres");
   }
-  std::string page(report::page_html());
-  page = filled(std::move(page), "/*style*/", report::page_css());
-  page = filled(std::move(page), "/*sphere*/", report::sphere_glsl());
-  page = filled(std::move(page), "/*scripts*/", report::scripts());
-  return filled(std::move(page), "{\"data\": null}", embedded(data));  // the last, since it may hold any text
+  return report_file(ReportKind::comparison, "Reflectance models compared", data.dump());
 }
 
 }  // namespace sklar::brdf

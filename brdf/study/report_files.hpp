@@ -5,11 +5,15 @@
 
 namespace sklar::brdf::report {
 
-[[nodiscard]] std::string_view page_html();
+[[nodiscard]] std::string_view frame_html();
 [[nodiscard]] std::string_view page_css();
-[[nodiscard]] std::string_view sphere_glsl();
+[[nodiscard]] std::string_view table_html();
 
-/// The library that plots, and the page's own scripts.
+/// The library that plots, and the scripts of all pages.
 [[nodiscard]] std::string_view scripts();
+
+[[nodiscard]] std::string_view compare_html();
+[[nodiscard]] std::string_view compare_scripts();
+[[nodiscard]] std::string_view sphere_glsl();
 
 }  // namespace sklar::brdf::report

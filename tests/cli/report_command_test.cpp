@@ -1,4 +1,4 @@
-/// `sklar brdf compare`: report.html, as text and in a browser.
+/// Pages that commands write for a browser, as text and in one.
 
 #include <gtest/gtest.h>
 
@@ -18,6 +18,14 @@ struct Visit {
   std::string console;  ///< what they complained of
 };
 
+/// The value of an attribute where it stands first.
+std::string attribute(const std::string& page, const std::string& name) {
+  const std::size_t at = page.find(name + "=\"");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + name.size() + 2;
+  return page.substr(begin, page.find('"', begin) - begin);
+}
+
 class Report : public CommandTest {
  protected:
   static bool has_browser() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
@@ -31,15 +39,23 @@ class Report : public CommandTest {
     (void)std::system(command.c_str());
     return {read_file(folder_ / "page"), read_file(folder_ / "console")};
   }
-};
 
-/// The value of an attribute where it stands first.
-std::string attribute(const std::string& page, const std::string& name) {
-  const std::size_t at = page.find(name + "=\"");
-  if (at == std::string::npos) return "";
-  const std::size_t begin = at + name.size() + 2;
-  return page.substr(begin, page.find('"', begin) - begin);
+  /// Nothing stands in the console after every choice has been made and every button pressed once.
+  void expect_controls_work(const std::string& name) const {
+    write("used.html", read(name) + R"(<script>
+for (const select of document.querySelectorAll('select')) {
+  for (const {value} of [...select.options]) { select.value = value; select.dispatchEvent(new Event('change')); }
 }
+for (const id of ['input[type=radio]', 'summary', 'thead button', 'tbody input', '#chosen button']) {
+  for (let n = 0; n < document.querySelectorAll(id).length; ++n) document.querySelectorAll(id)[n].click();
+}
+document.body.dataset.used = 'yes';
+</script>)");
+    const Visit used = visit("used.html");
+    EXPECT_EQ(used.console, "");
+    EXPECT_EQ(attribute(used.page, "data-used"), "yes");
+  }
+};
 
 nlohmann::json data_of(const std::string& page) {
   const std::string begin = "<script type=\"application/json\" id=\"data\">";
@@ -62,6 +78,7 @@ TEST_F(Report, RunsInABrowserAndDrawsTheModel) {
   ASSERT_NE(difference, "") << "the live sphere was not drawn";
   EXPECT_LT(std::stod(difference), kSameSphere);
   EXPECT_GT(std::stod(difference), 0);  // two evaluations, not one picture
+  expect_controls_work("out/report.html");
 }
 
 }  // namespace

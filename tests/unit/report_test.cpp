@@ -15,6 +15,7 @@
 #include "brdf/study/curves.hpp"
 #include "brdf/study/live_sphere.hpp"
 #include "brdf/study/model_comparison.hpp"
+#include "brdf/study/report_frame.hpp"
 #include "brdf/study/table_text.hpp"
 #include "families/registry.hpp"
 
@@ -88,12 +89,27 @@ TEST(ReportPage, NamesStayText) {
 }
 
 TEST(ReportPage, LoadsNothing) {
-  const std::string page = page_of("felt");
-  EXPECT_EQ(count(page, "default-src 'none'"), 1U);
-  for (const char* load :
-       {" src=", "src=\"http", "href=\"http", "@import", "url(", "fetch(", "XMLHttpRequest", "import("}) {
-    EXPECT_EQ(count(page, load), 0U) << load;
+  for (const ReportKind kind : {ReportKind::comparison}) {
+    const std::string page = report_file(kind, "Title", "{}");
+    EXPECT_EQ(count(page, "default-src 'none'"), 1U);
+    for (const char* load :
+         {" src=", "src=\"http", "href=\"http", "@import", "url(", "fetch(", "XMLHttpRequest", "import("}) {
+      EXPECT_EQ(count(page, load), 0U) << load;
+    }
   }
+}
+
+TEST(ReportPage, EveryPageIsFilled) {
+  for (const ReportKind kind : {ReportKind::comparison}) {
+    const std::string page = report_file(kind, "Title", R"({"rows": []})");
+    for (const char* marker : {"/*title*/", "/*style*/", "/*body*/", "/*table*/", "/*sphere*/", "/*scripts*/"}) {
+      EXPECT_EQ(count(page, marker), 0U) << marker;
+    }
+    EXPECT_EQ(count(page, "Title</"), 2U);
+    EXPECT_EQ(count(page, "<table id=\"table\">"), 1U);
+    EXPECT_EQ(data_of(page), R"({"rows": []})");
+  }
+  EXPECT_THROW((void)report_file(ReportKind::comparison, "Title", "{"), std::invalid_argument);
 }
 
 TEST(ReportPage, EveryRowHasItsSphere) {

@@ -1,20 +1,5 @@
 // The page as a whole: what is chosen at its head goes into every section.
 
-function draw_chosen() {
-  const item = ({name, colour, row}) => {
-    const swatch = make('span', {className: 'swatch'});
-    swatch.style.setProperty('--series', colour);
-    const entry = make('li', {}, swatch, name);
-    if (row) {
-      const button = make('button', {type: 'button', onclick: () => { choose(name, false); draw_all(); }}, '×');
-      button.setAttribute('aria-label', `Take ${name} out of the plots`);
-      entry.append(button);
-    }
-    return entry;
-  };
-  element('chosen').replaceChildren(...shown_models().map(item));
-}
-
 function draw_plots() {
   draw_lobes();
   draw_cost();
@@ -23,7 +8,7 @@ function draw_plots() {
 }
 
 function draw_all() {
-  draw_chosen();
+  draw_chosen(shown_models());
   draw_table();
   draw_plots();
 }
@@ -44,16 +29,16 @@ function summary() {
 }
 
 function start() {
-  Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
-  element('summary').textContent = summary();
-  element('machine').textContent = `Times of ${data.machine}. Loads nothing from a network.`;
-  element('glossary').append(...measures.flatMap((name) =>
-    [make('dt', {}, kMeasures[name].heading), make('dd', {}, kMeasures[name].about)]));
+  start_page(summary(), data.machine);
+  start_table('log1p_mae');
   document.title = `${data.materials.map(({name}) => name).join(', ')}: reflectance models compared`;
   fill_select(element('material'), data.materials.map(({name}) => [name, name]), chosen.material);
-  const errors = measures.filter((name) => kMeasures[name].better);
-  fill_select(element('error'), errors.map((name) => [name, kMeasures[name].heading]), 'log1p_mae');
-  element('all-materials-label').hidden = data.materials.length < 2;
+  const errors = measures.filter((name) => kColumns[name].better);
+  fill_select(element('error'), errors.map((name) => [name, kColumns[name].heading]), 'log1p_mae');
+  if (data.materials.length > 1) {
+    const box = make('input', {type: 'checkbox', id: 'all-materials', onchange: draw_table});
+    element('table-controls').prepend(make('label', {className: 'check'}, box, ' all materials'));
+  }
   const slider = element('theta-i');
   Object.assign(slider, {min: 0, max: data.axes.lobe_theta_i.length - 1, step: 1});
   slider.value = data.axes.lobe_theta_i.indexOf(45);
@@ -62,15 +47,12 @@ function start() {
   }
 
   element('material').onchange = change_material;
-  element('all-materials').onchange = draw_table;
-  element('find').oninput = draw_table;
   slider.oninput = draw_lobes;
   element('error').onchange = draw_cost;
   const redraw = {'lobe-scale': draw_lobes, cost: draw_cost, channel: draw_albedo};
   for (const [name, draw] of Object.entries(redraw)) {
     for (const radio of document.querySelectorAll(`input[name="${name}"]`)) radio.onchange = draw;
   }
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw_all);
   start_pictures();
   start_live();
   start_copula();

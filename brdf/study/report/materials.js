@@ -1,11 +1,10 @@
-'use strict';
-// The data of the page and what is chosen of it.
-
-const data = JSON.parse(document.getElementById('data').textContent);
-const element = (id) => document.getElementById(id);
+// The materials and models of a comparison, and what is chosen of them.
 
 /// What is counted or measured. Error measures have a better end; digits are decimals, unless the number is small.
-const kMeasures = {
+const kColumns = {
+  name: {heading: 'model', text: true},
+  material: {heading: 'material', text: true},
+  kind: {heading: 'kind', text: true},
   bytes: {heading: 'size', unit: 'B', digits: 0, about: 'bytes of everything that evaluation needs'},
   eval_ns: {heading: 'time', unit: 'ns', digits: 0, about: 'an RGB value in a batch on one thread'},
   fit_s: {heading: 'fit', unit: 's', digits: 1, about: 'wall clock of the fit on all threads'},
@@ -29,23 +28,6 @@ const kProvenance = {
   unknown: 'of unknown origin',
 };
 
-const kMinus = '\u2212';
-
-/// A value as the table shows it; "inf" and "nan" come as text, null for none.
-function show(value, measure = {digits: 4}) {
-  if (value === null || value === undefined || value === 'nan') return '–';
-  if (value === 'inf') return '∞';
-  const small = value !== 0 && Math.abs(value) < 10 ** -measure.digits;
-  const text = small ? value.toExponential(1) : value.toLocaleString('en', {
-    minimumFractionDigits: measure.digits, maximumFractionDigits: measure.digits});
-  return text.replace('-', kMinus);
-}
-
-/// For comparisons: what has no value sorts last, whichever way.
-function number_of(value) {
-  return value === 'inf' ? Infinity : typeof value === 'number' ? value : NaN;
-}
-
 /// A model's name is the same on all materials.
 function name_of(row) {
   const name = row.mode ? `${row.mode} · ${row.family}` : row.model;
@@ -53,46 +35,29 @@ function name_of(row) {
 }
 
 for (const row of data.rows) row.name = name_of(row);
-const measures = Object.keys(kMeasures).filter((name) => data.rows.some((row) => name in row));
+const measures = Object.keys(kColumns).filter((name) => !kColumns[name].text && data.rows.some((row) => name in row));
 
-/// Colours that people with a colour vision deficiency tell apart (Okabe and Ito).
-const kSeries = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
-
-const chosen = {
-  material: data.materials[0].name,
-  colours: new Map(),  // of the models in the plots, by name
-};
+chosen.material = data.materials[0].name;
 
 const rows_of = (material) => data.rows.filter((row) => row.material === material);
-const material_of = (name) => data.materials.find((material) => material.name === name);
-const current_material = () => material_of(chosen.material);
+const current_material = () => data.materials.find(({name}) => name === chosen.material);
 
 /// The reference and the chosen models as the plots draw them: name, colour, row (none for the reference), curves.
 function shown_models() {
-  const style = getComputedStyle(document.documentElement);
-  const reference = {name: 'reference', colour: style.getPropertyValue('--ink'), curves: current_material().curves};
+  const reference = {name: 'reference', colour: theme_colours().ink, fixed: true, curves: current_material().curves};
   const models = rows_of(chosen.material)
     .filter((row) => chosen.colours.has(row.name))
     .map((row) => ({name: row.name, colour: chosen.colours.get(row.name), row, curves: row.curves}));
   return [reference, ...models];
 }
 
-/// Shows a model in the plots, in place of the one chosen first where all colours are in use.
-function choose(name, wanted) {
-  chosen.colours.delete(name);
-  if (!wanted) return;
-  const free = () => kSeries.find((colour) => ![...chosen.colours.values()].includes(colour));
-  if (!free()) chosen.colours.delete(chosen.colours.keys().next().value);
-  chosen.colours.set(name, free());
-}
+const all_materials = () => Boolean(element('all-materials')?.checked);
 
-function fill_select(select, options, value) {
-  select.replaceChildren(...options.map(([key, label]) => new Option(label, key, false, key === value)));
-}
-
-/// An element with properties and children.
-function make(tag, properties = {}, ...children) {
-  const node = Object.assign(document.createElement(tag), properties);
-  node.append(...children);
-  return node;
-}
+const kTable = {
+  columns: () => ['name', ...(all_materials() ? ['material'] : []), ...(data.rows.some((row) => row.kind) ? ['kind'] : []),
+    ...measures],
+  rows: () => [...(all_materials() ? data.rows : rows_of(chosen.material))],
+  peers: (row) => rows_of(row.material),
+  caption: () => (all_materials() ? data.materials : [current_material()])
+    .map(({name, provenance}) => `${name} is ${kProvenance[provenance]}.`).join(' '),
+};

@@ -1,7 +1,5 @@
 // What the plots show.
 
-const radio_value = (name) => document.querySelector(`input[name="${name}"]:checked`).value;
-
 /// A line for the reference, wide, and one for each chosen model; values(curves) or null where there are none.
 function lines(x, values) {
   return shown_models().filter((model) => model.curves).map((model) => ({
@@ -62,20 +60,10 @@ function draw_margins() {
   });
 }
 
-/// Those that no other beats in cost and error, from cheap to dear.
-function front(points) {
-  let least = Infinity;
-  return [...points].sort((a, b) => a.x - b.x || a.y - b.y).filter((point) => {
-    const best = point.y < least;
-    least = Math.min(least, point.y);
-    return best;
-  });
-}
-
 const kShapes = {copula: 'circle', analytic: 'triangle', basis: 'rect'};
 
 function cost_points(cost, error) {
-  const sign = kMeasures[error].better === 'lower' ? 1 : -1;
+  const sign = kColumns[error].better === 'lower' ? 1 : -1;
   return rows_of(chosen.material)
     .map((row) => ({row, x: number_of(row[cost]), value: number_of(row[error]), y: sign * number_of(row[error])}))
     .filter((point) => point.x > 0 && Number.isFinite(point.value));
@@ -85,6 +73,7 @@ function draw_cost() {
   const cost = radio_value('cost'), error = element('error').value;
   const theme = theme_colours();
   const points = cost_points(cost, error);
+  const lower = kColumns[error].better === 'lower';
   const best = front(points);
   const label = ({row}) => (chosen.colours.has(row.name) || best.some((point) => point.row === row) ? row.name : '');
   const group = (kind) => {
@@ -95,14 +84,13 @@ function draw_cost() {
   };
   const line = {label: 'best', colour: theme.muted, width: 1, order: 1, dash: [2, 3],
     stepped: 'before', x: best.map((point) => point.x), y: best.map((point) => point.value)};
-  const lower = kMeasures[error].better === 'lower';
-  const unit = kMeasures[error].unit ? ` (${kMeasures[error].unit})` : '';
+  const unit = kColumns[error].unit ? ` (${kColumns[error].unit})` : '';
   const kinds = Object.keys(kShapes).filter((kind) => points.some(({row}) => (row.kind ?? 'copula') === kind));
   draw_plot('cost', {
     x: {label: cost === 'bytes' ? 'size (bytes)' : 'time of an RGB value (ns)', scale: 'log'},
-    y: {label: `${kMeasures[error].heading}${unit}, ${kMeasures[error].better} is better`, scale: lower ? 'log' : 'linear'},
+    y: {label: `${kColumns[error].heading}${unit}, ${kColumns[error].better} is better`, scale: lower ? 'log' : 'linear'},
     series: [line, ...kinds.map(group)],
-    about: `${kMeasures[error].heading} against ${kMeasures[cost].heading}. Best: ${best.map(({row}) => row.name).join('; ')}`,
-    caption: kinds.length > 1 ? `Circles: copula models. Triangles: analytic models. Squares: data-driven models.` : '',
+    about: `${kColumns[error].heading} against ${kColumns[cost].heading}. Best: ${best.map(({row}) => row.name).join('; ')}`,
+    caption: kinds.length > 1 ? 'Circles: copula models. Triangles: analytic models. Squares: data-driven models.' : '',
   });
 }
