@@ -69,11 +69,18 @@ function cost_points(cost, error) {
     .filter((point) => point.x > 0 && Number.isFinite(point.value));
 }
 
+/// The points that a logarithmic axis of the error shows, and those too low for it: what reproduces the table.
+function split_low(points, lower) {
+  const kDecades = 5;
+  const floor = lower ? Math.max(...points.map(({value}) => value)) / 10 ** kDecades : -Infinity;
+  return [points.filter(({value}) => value >= floor), points.filter(({value}) => value < floor)];
+}
+
 function draw_cost() {
   const cost = radio_value('cost'), error = element('error').value;
   const theme = theme_colours();
-  const points = cost_points(cost, error);
   const lower = kColumns[error].better === 'lower';
+  const [points, below] = split_low(cost_points(cost, error), lower);
   const best = front(points);
   const label = ({row}) => (chosen.colours.has(row.name) || best.some((point) => point.row === row) ? row.name : '');
   const group = (kind) => {
@@ -91,6 +98,7 @@ function draw_cost() {
     y: {label: `${kColumns[error].heading}${unit}, ${kColumns[error].better} is better`, scale: lower ? 'log' : 'linear'},
     series: [line, ...kinds.map(group)],
     about: `${kColumns[error].heading} against ${kColumns[cost].heading}. Best: ${best.map(({row}) => row.name).join('; ')}`,
-    caption: kinds.length > 1 ? 'Circles: copula models. Triangles: analytic models. Squares: data-driven models.' : '',
+    caption: (kinds.length > 1 ? 'Circles: copula models. Triangles: analytic models. Squares: data-driven models.' : '')
+      + (below.length > 0 ? ` Below the plot: ${below.map(({row}) => row.name).join(', ')}.` : ''),
   });
 }
