@@ -16,4 +16,7 @@ namespace sklar::brdf::report {
 [[nodiscard]] std::string_view compare_scripts();
 [[nodiscard]] std::string_view sphere_glsl();
 
+[[nodiscard]] std::string_view cost_html();
+[[nodiscard]] std::string_view cost_scripts();
+
 }  // namespace sklar::brdf::report

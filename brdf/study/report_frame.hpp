@@ -8,7 +8,8 @@ namespace sklar::brdf {
 
 /// What a page is of: its sections and scripts.
 enum class ReportKind {
-  comparison  ///< see report_page
+  comparison,  ///< see report_page
+  cost         ///< error against cost: what `sklar tradeoff --json` prints and "kind", a name in report/cost_kinds.js
 };
 
 /// The page: style, scripts and data in one file, which loads nothing.

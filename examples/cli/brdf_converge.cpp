@@ -6,10 +6,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "brdf/study/base64.hpp"
 #include "brdf/study/convergence.hpp"
+#include "brdf/study/results.hpp"
 #include "copula/file.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
+#include "examples/cli/report.hpp"
 #include "examples/cli/scene.hpp"
 #include "examples/cli/text.hpp"
 
@@ -149,6 +152,16 @@ nlohmann::ordered_json json_of(const Rows& rows) {
   return {{"rows", result}};
 }
 
+/// @param sheet the file of the pictures.
+void write_report(const Rows& rows, const std::string& title, const std::filesystem::path& sheet,
+                  const Options& options) {
+  nlohmann::ordered_json document = json_of(rows);
+  document["scene"] = title;
+  document["machine"] = brdf::machine_name();
+  document["picture"] = "data:image/png;base64," + brdf::base64(read_file(sheet));
+  write_cost_report((options.folder / "report.html").string(), "Convergence", "convergence", document);
+}
+
 void run(Options options, bool json) {
   std::vector<brdf::BrdfPtr> materials;
   for (const std::string& path : options.materials) materials.push_back(load_isotropic_brdf(path));
@@ -172,12 +185,13 @@ void run(Options options, bool json) {
   plot::write_page(file("convergence.png"), convergence_page(rows, title));
   plot::write_page(file("convergence.svg"), convergence_page(rows, title));
   write_sheet(drawings, reference, rows, options, file("equal_time.png"));
+  write_report(rows, title, file("equal_time.png"), options);
   if (json) {
     print_json(json_of(rows));
     return;
   }
   std::cout << table(rows) << '\n' << ratios(rows, drawings) << '\n';
-  for (const char* name : {"convergence.csv", "convergence.png", "convergence.svg", "equal_time.png"}) {
+  for (const char* name : {"convergence.csv", "convergence.png", "convergence.svg", "equal_time.png", "report.html"}) {
     std::cout << file(name).string() << '\n';
   }
 }

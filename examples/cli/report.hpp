@@ -1,7 +1,10 @@
 #pragma once
-/// The page of a comparison.
+/// Pages for a browser.
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "brdf/study/report.hpp"
@@ -21,5 +24,10 @@ void write_report(const std::filesystem::path& folder, const std::vector<Row>& r
   }
   write_file(folder / "report.html", brdf::report_page(to_json(rows), materials));
 }
+
+/// A page of error against cost. @param kind a name in brdf/study/report/cost_kinds.js. @param document what the
+/// command prints with --json. @throws FileError
+void write_cost_report(const std::string& path, std::string_view title, std::string_view kind,
+                       nlohmann::ordered_json document);
 
 }  // namespace sklar::cli

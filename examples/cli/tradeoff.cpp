@@ -12,6 +12,7 @@
 #include "copula/error.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
+#include "examples/cli/report.hpp"
 #include "examples/cli/text.hpp"
 #include "examples/cli/tradeoff_brdf.hpp"
 #include "examples/cli/tradeoff_plot.hpp"
@@ -31,6 +32,7 @@ struct Options {
   double max_bytes = std::numeric_limits<double>::infinity();
   std::string csv;
   std::string picture;
+  std::string report;
 };
 
 std::string rounded(const char* format, double value) {
@@ -105,12 +107,16 @@ void run_models(const Options& options, bool json) {
   }
   if (!options.csv.empty()) write_output(options.csv, to_csv(rows, table->name));
   if (!options.picture.empty()) plot::write_page(options.picture, to_page(rows, table->name));
+  if (!options.report.empty()) {
+    write_cost_report(options.report, "Models: error against cost", "models", to_json(rows, table->name));
+  }
   if (json) return print_json(to_json(rows, table->name));
   write_output("", to_table(rows));
 }
 
 void run(Options options, const Common& common) {
   require_folder(options.csv);
+  require_folder(options.report);
   require_picture(options.picture);
   if (options.models) return run_models(options, common.json);
   options.measure.seed = common.seed;
@@ -129,6 +135,9 @@ void run(Options options, const Common& common) {
   if (!options.picture.empty()) {
     const std::string title = "Speed and accuracy, d = " + std::to_string(options.measure.dim);
     plot::write_page(options.picture, tradeoff_page(rows, title));
+  }
+  if (!options.report.empty()) {
+    write_cost_report(options.report, "Copulas: error against cost", "copulas", json_of(rows, options.measure));
   }
   if (common.json) return print_json(json_of(rows, options.measure));
   write_output("", table_of(rows));
@@ -161,6 +170,7 @@ void add_tradeoff(CLI::App& parent, Common& common) {
       ->capture_default_str();
   command->add_option("--csv", options->csv, "write the figures here too");
   command->add_option("-o", options->picture, "draw them here, a .png or .svg");
+  command->add_option("--report", options->report, "write a page for a browser here, with table and plot");
   finish_command(*command, common, [options, material, &common] {
     options->models = material->count() > 0;
     run(*options, common);

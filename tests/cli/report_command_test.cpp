@@ -55,6 +55,13 @@ document.body.dataset.used = 'yes';
     EXPECT_EQ(used.console, "");
     EXPECT_EQ(attribute(used.page, "data-used"), "yes");
   }
+
+  void expect_works_in_a_browser(const std::string& name, const std::string& text) const {
+    const Visit visited = visit(name);
+    EXPECT_EQ(visited.console, "");
+    EXPECT_NE(visited.page.find(text), std::string::npos) << text;
+    expect_controls_work(name);
+  }
 };
 
 nlohmann::json data_of(const std::string& page) {
@@ -79,6 +86,39 @@ TEST_F(Report, RunsInABrowserAndDrawsTheModel) {
   EXPECT_LT(std::stod(difference), kSameSphere);
   EXPECT_GT(std::stod(difference), 0);  // two evaluations, not one picture
   expect_controls_work("out/report.html");
+}
+
+TEST_F(Report, OfCopulasRecommendsALevel) {
+  ASSERT_EQ(run("tradeoff --families frank,independence --rows 20 --report t.html").status, 0);
+  const auto data = data_of(read("t.html"));
+  EXPECT_EQ(data["kind"], "copulas");
+  EXPECT_EQ(data["rows"].size(), 24U) << "two families, three quantities, four levels";
+  if (!has_browser()) GTEST_SKIP() << "no chromium in the path: the page is not opened";
+  expect_works_in_a_browser("t.html", "largest error is at most 10⁻¹³: frank, standard");
+}
+
+TEST_F(Report, OfModelsRecommendsOne) {
+  ASSERT_EQ(run("tradeoff --brdf --families independence --slices 1 --max-bytes 1 --report m.html").status, 0);
+  const auto data = data_of(read("m.html"));
+  EXPECT_EQ(data["kind"], "models");
+  EXPECT_EQ(data["rows"].size(), 1U);
+  if (!has_browser()) GTEST_SKIP() << "no chromium in the path: the page is not opened";
+  expect_works_in_a_browser("m.html", ": paper · independence, 1 slice (");
+}
+
+TEST_F(Report, OfConvergenceHasCurvesAndPictures) {
+  ASSERT_EQ(run("brdf converge --size 12 --spp-max 2 --spp-reference 4 --out .").status, 0);
+  const auto data = data_of(read("report.html"));
+  EXPECT_EQ(data["kind"], "convergence");
+  EXPECT_EQ(data["rows"].size(), 6U);
+  EXPECT_TRUE(data["picture"].get<std::string>().starts_with("data:image/png;base64,iVBORw0KGgo"));
+  if (!has_browser()) GTEST_SKIP() << "no chromium in the path: the page is not opened";
+  expect_works_in_a_browser("report.html", "Recommended, the cheapest whose error of the materials is at most");
+}
+
+TEST_F(Report, IsRefusedBeforeAnythingIsWritten) {
+  expect_refused("tradeoff --families frank --rows 5 --report missing/t.html",
+                 "missing/t.html: its folder does not exist");
 }
 
 }  // namespace

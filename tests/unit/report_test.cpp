@@ -89,7 +89,7 @@ TEST(ReportPage, NamesStayText) {
 }
 
 TEST(ReportPage, LoadsNothing) {
-  for (const ReportKind kind : {ReportKind::comparison}) {
+  for (const ReportKind kind : {ReportKind::comparison, ReportKind::cost}) {
     const std::string page = report_file(kind, "Title", "{}");
     EXPECT_EQ(count(page, "default-src 'none'"), 1U);
     for (const char* load :
@@ -100,7 +100,7 @@ TEST(ReportPage, LoadsNothing) {
 }
 
 TEST(ReportPage, EveryPageIsFilled) {
-  for (const ReportKind kind : {ReportKind::comparison}) {
+  for (const ReportKind kind : {ReportKind::comparison, ReportKind::cost}) {
     const std::string page = report_file(kind, "Title", R"({"rows": []})");
     for (const char* marker : {"/*title*/", "/*style*/", "/*body*/", "/*table*/", "/*sphere*/", "/*scripts*/"}) {
       EXPECT_EQ(count(page, marker), 0U) << marker;
@@ -109,7 +109,7 @@ TEST(ReportPage, EveryPageIsFilled) {
     EXPECT_EQ(count(page, "<table id=\"table\">"), 1U);
     EXPECT_EQ(data_of(page), R"({"rows": []})");
   }
-  EXPECT_THROW((void)report_file(ReportKind::comparison, "Title", "{"), std::invalid_argument);
+  EXPECT_THROW((void)report_file(ReportKind::cost, "Title", "{"), std::invalid_argument);
 }
 
 TEST(ReportPage, EveryRowHasItsSphere) {

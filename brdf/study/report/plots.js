@@ -4,6 +4,7 @@ const kScales = {
   linear: {to: (v) => v, ticks: linear_ticks},
   log: {to: (v) => (v > 0 ? Math.log10(v) : NaN), ticks: log_ticks},
   cbrt: {to: Math.cbrt, ticks: (low, high) => spread_ticks(Math.cbrt, low, high)},
+  digits: {to: (v) => (v > 0 && v < 1 ? -Math.log10(-Math.log10(v)) : NaN), ticks: digit_ticks},
   sqrt: {to: Math.sqrt, ticks: (low, high) => spread_ticks(Math.sqrt, low, high)},
 };
 
@@ -23,6 +24,12 @@ function log_ticks(low, high, factors = Math.log10(high / low) < 2.5 ? [1, 2, 5]
     for (const factor of factors) ticks.push(Number(`${factor}e${n}`));
   }
   return ticks.filter((tick) => tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9));
+}
+
+/// Powers of ten whose exponents stand apart on the scale of digits.
+function digit_ticks(low, high) {
+  return [1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300].map((n) => Number(`1e-${n}`))
+    .filter((tick) => tick >= low && tick <= high).reverse();
 }
 
 /// 0 and numbers 1, 2, 5 times a power of ten that stand apart on the scale.
@@ -54,6 +61,7 @@ function ends(axis, values) {
     const room = high < 2 * low ? 2 : 1.25;
     return [axis.low ?? floor / room, axis.high ?? high * room];
   }
+  if (axis.scale === 'digits') return [axis.low ?? low ** 1.1, axis.high ?? high ** 0.9];
   return [axis.low ?? low, axis.high ?? (high > 0 ? high * 1.05 : 1)];
 }
 
@@ -150,7 +158,8 @@ function plot_parts(name) {
 function value_table(details, plot) {
   const fill = () => {
     if (!details.open) return;
-    const lines = plot.series.flatMap((series) => series.x.map((x, n) => make('tr', {},
+    const listed = plot.series.filter((series) => !series.drawn_only);
+    const lines = listed.flatMap((series) => series.x.map((x, n) => make('tr', {},
       make('th', {scope: 'row', className: 'text'}, series.names?.[n] ?? series.label), make('td', {}, tick_text(x)),
       make('td', {}, Number.isFinite(series.y[n]) ? String(Number(series.y[n].toPrecision(4))) : '–'))));
     const head = ['', plot.x.label, plot.y.label].map((text) => make('th', {scope: 'col'}, text));
@@ -175,13 +184,14 @@ function dataset(series, plot, theme) {
     pointStyle: series.shape ?? 'circle',
     pointRadius: series.points ?? 0,
     pointHoverRadius: (series.points ?? 2) + 2,
-    pointBorderColor: theme.raised,
-    pointBorderWidth: series.points ? 1 : 0,
+    pointBorderColor: series.border ?? theme.raised,
+    pointBorderWidth: series.border ? 2 : series.points ? 1 : 0,
     order: series.order ?? 0,
   };
 }
 
 /// Draws plot = {x, y, series, marks, about, by_x} into the figure of this name; x, y: {label, scale, low, high, ticks}.
+/// A series that is drawn_only is not in the table of values.
 function draw_plot(name, plot) {
   const theme = theme_colours();
   const parts = plot_parts(name);
