@@ -19,6 +19,9 @@ class Rotated final : public Copula {
 
   [[nodiscard]] bool has_frailty() const override { return base_->has_frailty(); }
 
+  [[nodiscard]] const CopulaPtr& base() const noexcept { return base_; }
+  [[nodiscard]] bool reflects(int coordinate) const { return reflection_[static_cast<std::size_t>(coordinate)]; }
+
  private:
   void log_pdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override;
   void log_cdf_into(const PointsRef& u, const Reflection& reflection, ColumnOut out) const override;

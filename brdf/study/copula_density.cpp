@@ -21,22 +21,10 @@ constexpr int kDigits = 5;
 /// An entry; null where two coordinates alone do not have the family.
 Json entry(const FamilyInfo& family, const Theta& theta, double theta_d, int component) {
   if (!family.admits(2, theta)) return nullptr;
-  Eigen::ArrayXXd u(kNodes * kNodes, 2);
-  for (int n = 0; n < u.rows(); ++n) {
-    const int row = n / kNodes, column = n % kNodes;
-    u.row(n) << (row + 0.5) / kNodes, (column + 0.5) / kNodes;
-  }
-  const Eigen::ArrayXd density = family.make(2, theta)->log_pdf(u).exp();
-  Json rows = Json::array();
-  for (int i = 0; i < kNodes; ++i) {
-    Json row = Json::array();
-    for (int j = 0; j < kNodes; ++j) row.push_back(to_digits(kDigits, density(i * kNodes + j)));
-    rows.push_back(std::move(row));
-  }
   return {{"theta_d", theta_d},
           {"component", component},
           {"tau", to_digits(kDigits, family.tau(theta))},
-          {"density", rows}};
+          {"density", Json::parse(pair_density_json(*family.make(2, theta), kNodes))}};
 }
 
 Json of_paper(const PaperBrdf& brdf) {
@@ -64,6 +52,21 @@ Json of_refined(const RefinedBrdf& brdf) {
 }
 
 }  // namespace
+
+std::string pair_density_json(const Copula& copula, int nodes) {
+  Points u(Index{nodes} * nodes, 2);
+  for (Index n = 0; n < u.rows(); ++n) {
+    u.row(n) << (static_cast<double>(n / nodes) + 0.5) / nodes, (static_cast<double>(n % nodes) + 0.5) / nodes;
+  }
+  const Column density = copula.log_conditional_pdf(u).exp();  // the margin of the first coordinate is uniform
+  Json rows = Json::array();
+  for (Index i = 0; i < nodes; ++i) {
+    Json row = Json::array();
+    for (Index j = 0; j < nodes; ++j) row.push_back(to_digits(kDigits, density(i * nodes + j)));
+    rows.push_back(std::move(row));
+  }
+  return rows.dump();
+}
 
 std::string copula_densities_json(const Brdf& brdf) {
   Json array = Json::array();

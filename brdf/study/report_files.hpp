@@ -16,6 +16,9 @@ namespace sklar::brdf::report {
 [[nodiscard]] std::string_view compare_scripts();
 [[nodiscard]] std::string_view sphere_glsl();
 
+[[nodiscard]] std::string_view fit_html();
+[[nodiscard]] std::string_view fit_scripts();
+
 [[nodiscard]] std::string_view cost_html();
 [[nodiscard]] std::string_view cost_scripts();
 

@@ -33,6 +33,8 @@ Parts parts_of(ReportKind kind) {
     case ReportKind::comparison:
       return {filled(std::string(report::compare_html()), "/*sphere*/", report::sphere_glsl()),
               report::compare_scripts()};
+    case ReportKind::fit:
+      return {std::string(report::fit_html()), report::fit_scripts()};
     case ReportKind::cost:
       return {std::string(report::cost_html()), report::cost_scripts()};
   }

@@ -9,6 +9,7 @@ namespace sklar::brdf {
 /// What a page is of: its sections and scripts.
 enum class ReportKind {
   comparison,  ///< see report_page
+  fit,         ///< copula families fitted to data
   cost         ///< error against cost: what `sklar tradeoff --json` prints and "kind", a name in report/cost_kinds.js
 };
 

@@ -7,6 +7,7 @@
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/select.hpp"
 #include "examples/cli/command.hpp"
+#include "examples/cli/fit_report.hpp"
 #include "examples/cli/text.hpp"
 
 namespace sklar::cli {
@@ -18,6 +19,7 @@ struct Options {
   std::string margins = "empirical";
   std::string method = "ml";
   std::string output;
+  std::string report;
 };
 
 /// Precondition: the name of one, as the option allows.
@@ -29,13 +31,13 @@ FitMethod find_method(const std::string& name) {
 }
 
 /// @throws FileError naming the line of a value that is not finite.
-Points read_data(const std::string& path) {
+Table read_data(const std::string& path) {
   Table table = read_csv(path);
   for (Index row = 0; row < table.values.rows(); ++row) {
     if (table.values.row(row).allFinite()) continue;
     throw FileError(path, "line " + std::to_string(row + 2) + ": every value must be finite");
   }
-  return std::move(table.values);
+  return table;
 }
 
 std::string json_of(const std::vector<FitResult>& results) {
@@ -69,12 +71,13 @@ std::string csv_of(const std::vector<FitResult>& results) {
 
 void run(const Options& options, bool json) {
   const std::vector<const FamilyInfo*> chosen = parse_families(options.families);
-  const Points data = read_data(options.path);
-  const Points u = options.margins == "empirical" ? pseudo_observations(data) : data;
+  const Table data = read_data(options.path);
+  const Points u = options.margins == "empirical" ? pseudo_observations(data.values) : data.values;
   const std::vector<FitResult> results = fit_all(chosen, find_method(options.method), u);
   if (results.front().status == FitStatus::failed) {
     throw std::runtime_error("no family could be fitted; " + results.front().family + ": " + results.front().message);
   }
+  if (!options.report.empty()) write_fit_report(options.report, {options.margins, data.names, u}, chosen, results);
   write_output(options.output, json ? json_of(results) : csv_of(results));
 }
 
@@ -92,6 +95,7 @@ void add_copula_fit(CLI::App& parent, Common& common) {
       ->check(CLI::IsMember({"ml", "ls", "tau"}))
       ->capture_default_str();
   command->add_option("-o", options->output, "write here, not to standard output");
+  command->add_option("--report", options->report, "write a page for a browser here, with table and plots");
   finish_command(*command, common, [options, &common] { run(*options, common.json); });
 }
 

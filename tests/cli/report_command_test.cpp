@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "copula/file.hpp"
+#include "copula/inference/csv.hpp"
 #include "tests/cli/run_command.hpp"
 
 namespace sklar::cli {
@@ -116,7 +118,51 @@ TEST_F(Report, OfConvergenceHasCurvesAndPictures) {
   expect_works_in_a_browser("report.html", "Recommended, the cheapest whose error of the materials is at most");
 }
 
+/// The largest difference of two lists of numbers.
+double distance(const nlohmann::json& a, const nlohmann::json& b) {
+  double largest = a.size() == b.size() ? 0 : 1;
+  for (std::size_t n = 0; n < std::min(a.size(), b.size()); ++n) {
+    largest = std::max(largest, std::abs(a[n].get<double>() - b[n].get<double>()));
+  }
+  return largest;
+}
+
+TEST_F(Report, OfAFitShowsEvenlySpacedRows) {
+  ASSERT_EQ(run("copula sample --family gumbel --tau 0.4 -n 2500 -o data.csv").status, 0);
+  ASSERT_EQ(run("copula fit data.csv --margins none --families gumbel,amh --method tau --report f.html").status, 0);
+  const auto data = data_of(read("f.html"));
+  const Points u = parse_csv(read("data.csv"), "data.csv").values;
+  EXPECT_EQ(data["n"], 2500);
+  ASSERT_EQ(data["points"].size(), 2U);
+  ASSERT_EQ(data["points"][1].size(), 2000U);
+  constexpr double kFiveDigits = 5e-5;
+  for (const Index i : {0, 1, 4, 1999}) {
+    EXPECT_NEAR(data["points"][1][static_cast<std::size_t>(i)].get<double>() / u(i * 2500 / 2000, 1), 1, kFiveDigits);
+  }
+  if (!has_browser()) GTEST_SKIP() << "no chromium in the path: the page is not opened";
+  expect_works_in_a_browser("f.html", "2,000 of 2,500 rows");
+}
+
+TEST_F(Report, OfAFitComparesKendallDistributionsOfReflectedData) {
+  constexpr double kSame = 0.05;  // 2.2 / sqrt(2000): a distance of Kolmogorov that one sample in 10000 exceeds
+  ASSERT_EQ(run("copula sample --family clayton@u1 --theta 3 --dim 3 -n 2000 -o data.csv").status, 0);
+  ASSERT_EQ(run("copula fit data.csv --families clayton@u1,frank --report f.html").status, 0);
+  const auto data = data_of(read("f.html"));
+  EXPECT_EQ(data["pairs"].size(), 3U);
+  const auto& best = data["rows"][0];
+  ASSERT_EQ(best["name"], "clayton@u1");
+  EXPECT_EQ(best["reflection"], 1);
+  EXPECT_EQ(best["reflected"], nlohmann::json::parse("[true, false, false]"));
+  const auto& reflections = data["reflections"];
+  ASSERT_EQ(reflections.size(), 2U);
+  EXPECT_EQ(reflections[1]["label"], "data with 1 − u of u1");
+  EXPECT_LT(distance(reflections[1]["kendall"], best["kendall"]), kSame);
+  EXPECT_GT(distance(reflections[0]["kendall"], best["kendall"]), 2 * kSame);
+}
+
 TEST_F(Report, IsRefusedBeforeAnythingIsWritten) {
+  write("data.csv", "a,b\n0.1,0.2\n0.5,0.4\n0.9,0.8\n");
+  expect_refused("copula fit data.csv --families frank -o out.csv --report missing/f.html", "missing/f.html");
   expect_refused("tradeoff --families frank --rows 5 --report missing/t.html",
                  "missing/t.html: its folder does not exist");
 }

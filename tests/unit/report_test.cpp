@@ -89,7 +89,7 @@ TEST(ReportPage, NamesStayText) {
 }
 
 TEST(ReportPage, LoadsNothing) {
-  for (const ReportKind kind : {ReportKind::comparison, ReportKind::cost}) {
+  for (const ReportKind kind : {ReportKind::comparison, ReportKind::fit, ReportKind::cost}) {
     const std::string page = report_file(kind, "Title", "{}");
     EXPECT_EQ(count(page, "default-src 'none'"), 1U);
     for (const char* load :
@@ -100,7 +100,7 @@ TEST(ReportPage, LoadsNothing) {
 }
 
 TEST(ReportPage, EveryPageIsFilled) {
-  for (const ReportKind kind : {ReportKind::comparison, ReportKind::cost}) {
+  for (const ReportKind kind : {ReportKind::comparison, ReportKind::fit, ReportKind::cost}) {
     const std::string page = report_file(kind, "Title", R"({"rows": []})");
     for (const char* marker : {"/*title*/", "/*style*/", "/*body*/", "/*table*/", "/*sphere*/", "/*scripts*/"}) {
       EXPECT_EQ(count(page, marker), 0U) << marker;
@@ -165,6 +165,17 @@ TEST(CopulaDensities, AreDensities) {
     EXPECT_LT(std::abs(copula["tau"].get<double>()), 1);
   }
   EXPECT_EQ(copula_densities_json(Lambert(Rgb::Constant(0.5))), "[]");
+}
+
+TEST(CopulaDensities, OfAPairOfMoreCoordinatesAreReflectedAsItIs) {
+  constexpr double kDigits = 2e-5;  // twice half a unit of the fifth
+  const json pair = json::parse(pair_density_json(*families::find("clayton").make(2, {2}), 8));
+  const json reflected = json::parse(pair_density_json(*families::find("clayton@u1").make(3, {2}), 8));
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t j = 0; j < 8; ++j) {
+      EXPECT_NEAR(reflected[7 - i][j].get<double>() / pair[i][j].get<double>(), 1, kDigits) << i << ' ' << j;
+    }
+  }
 }
 
 TEST(LiveSphere, HoldsTheCodeOfTheModel) {
