@@ -10,7 +10,47 @@ namespace {
   throw std::invalid_argument("field '" + std::string(name) + "' must be " + expected);
 }
 
+/// Called by the parser at each step into a value; `depth` counts the values around it.
+class Limits {
+ public:
+  bool operator()(int depth, Json::parse_event_t event, const Json& /*value*/) {
+    constexpr int kDeepest = 64;
+    constexpr int kMostFields = 10000;
+    const auto level = static_cast<std::size_t>(depth);
+    if (event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start) {
+      if (depth >= kDeepest) throw std::invalid_argument("nests more than " + std::to_string(kDeepest) + " levels");
+      fields_.resize(level + 1);
+      fields_.push_back(0);
+    }
+    if (event == Json::parse_event_t::key && ++fields_.at(level) > kMostFields) {
+      throw std::invalid_argument("has an object of more than " + std::to_string(kMostFields) + " fields");
+    }
+    return true;
+  }
+
+ private:
+  std::vector<int> fields_;  ///< so far, of the open object at each depth
+};
+
 }  // namespace
+
+void require_utf8(const char* what, std::string_view text) {
+  try {
+    (void)Json(text).dump();
+  } catch (const Json::type_error&) {
+    throw std::invalid_argument(std::string(what) + " is not UTF-8");
+  }
+}
+
+Json document(std::string_view text) {
+  try {
+    return Json::parse(text, Limits());
+  } catch (const Json::parse_error& error) {
+    throw std::invalid_argument("is not valid JSON: byte " + std::to_string(error.byte));
+  } catch (const Json::out_of_range&) {
+    throw std::invalid_argument("holds a number that is beyond double");
+  }
+}
 
 const Json& field(const Json& object, const char* name) {
   if (!object.is_object())

@@ -26,13 +26,19 @@ using Json = nlohmann::ordered_json;
 /// The document must say "format": format and "version": 1 to newest.
 void require_format(const Json& document, std::string_view format, int newest);
 
-/// convert(document). @param source names the text in errors. @throws FileError for anything wrong with the text.
+/// @throws std::invalid_argument naming `what` unless the text is UTF-8, as those of JSON are.
+void require_utf8(const char* what, std::string_view text);
+
+/// The value of a text. What handles it may recurse and search the fields of an object one by one: at most 64 levels,
+/// at most 10000 fields in an object. @throws std::invalid_argument for more, for what is not JSON (naming the byte)
+/// and for a number beyond double.
+[[nodiscard]] Json document(std::string_view text);
+
+/// convert(document(text)). @param source names the text in errors. @throws FileError for anything wrong with the text.
 template <class Convert>
 [[nodiscard]] auto parse(std::string_view text, std::string_view source, const Convert& convert) {
   try {
-    return convert(Json::parse(text));
-  } catch (const Json::parse_error& error) {
-    throw FileError(source, "is not valid JSON: byte " + std::to_string(error.byte));
+    return convert(document(text));
   } catch (const std::logic_error& error) {
     throw FileError(source, error.what());
   }

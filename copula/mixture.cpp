@@ -26,7 +26,9 @@ int common_dim(const std::vector<CopulaPtr>& components) {
   return components[0]->dim();
 }
 
-void require_weights(const std::vector<double>& weights, std::size_t components) {
+}  // namespace
+
+void Mixture::require_weights(const std::vector<double>& weights, std::size_t components) {
   if (weights.size() != components) {
     throw std::invalid_argument("a mixture of " + std::to_string(components) +
                                 " components needs as many weights, got " + std::to_string(weights.size()));
@@ -40,8 +42,6 @@ void require_weights(const std::vector<double>& weights, std::size_t components)
     throw std::domain_error("the weights of a mixture must have the sum 1, got " + to_text(sum));
   }
 }
-
-}  // namespace
 
 Mixture::Mixture(std::vector<CopulaPtr> components, std::vector<double> weights)
     : Copula(common_dim(components)), components_(std::move(components)), weights_(std::move(weights)) {

@@ -20,6 +20,9 @@ class Mixture final : public Copula {
   /// (weights).
   Mixture(std::vector<CopulaPtr> components, std::vector<double> weights);
 
+  /// What the constructor asks of the weights.
+  static void require_weights(const std::vector<double>& weights, std::size_t components);
+
   [[nodiscard]] bool has_frailty() const override;
 
  private:

@@ -3,6 +3,8 @@
 #include <boost/math/special_functions/bernoulli.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 namespace sklar {
@@ -42,7 +44,9 @@ double debye_1_defect(double x) {
   return sum;
 }
 
-long double eulerian_root(int n) {
+namespace {
+
+long double find_eulerian_root(int n) {
   // Newton from 0, right of every root, rises monotonically to the largest one. The polynomial is divided by n!.
   const Triangle<EulerianRule> table(n + 1, {});
   const auto coefficients = table.row<Extended>(n);
@@ -58,6 +62,16 @@ long double eulerian_root(int n) {
     x = next;
   }
   return x;
+}
+
+}  // namespace
+
+long double eulerian_root(int n) {
+  static std::mutex mutex;
+  static std::map<int, long double> roots;  // each is asked for again and again
+  const std::lock_guard lock(mutex);
+  const auto known = roots.find(n);
+  return known != roots.end() ? known->second : roots.emplace(n, find_eulerian_root(n)).first->second;
 }
 
 }  // namespace sklar

@@ -275,11 +275,7 @@ class SceneReader {
 
 Scene parse_scene(std::string_view text, std::string_view source, const std::filesystem::path& folder,
                   std::span<const BrdfPtr> given) {
-  try {
-    return json::parse(text, source, [&](const Json& document) { return SceneReader(folder, given).read(document); });
-  } catch (const Json::out_of_range&) {
-    throw FileError(source, "holds a number that is beyond double");
-  }
+  return json::parse(text, source, [&](const Json& document) { return SceneReader(folder, given).read(document); });
 }
 
 Scene read_scene(const std::filesystem::path& path, std::span<const BrdfPtr> given) {

@@ -13,6 +13,7 @@ namespace {
 using json::Json;
 
 constexpr std::string_view kFormat = "sklar copula";
+constexpr int kMostStored = 1000;  // dimensions; what some domains and copulas take grows with their square
 
 FamilyInfo family_from(const Json& json, std::string_view source, std::span<const FamilyInfo> families);
 
@@ -53,14 +54,30 @@ void require_margins(const CopulaModel& model) {
                               std::to_string(model.margins.size()));
 }
 
-ModelComponent component_from(const Json& json, int dim, std::string_view source,
-                              std::span<const FamilyInfo> families) {
+/// A component and what its family is: a definition is read once, however deep models stand in models.
+struct Part {
+  ModelComponent component;
+  FamilyInfo family;
+};
+
+CopulaPtr copula_of(int dim, const std::vector<Part>& parts) {
+  std::vector<CopulaPtr> copulas;
+  std::vector<double> weights;
+  for (const auto& [component, family] : parts) {
+    copulas.push_back(family.make(dim, component.theta));
+    weights.push_back(component.weight);
+  }
+  if (copulas.size() == 1 && weights.front() == 1) return copulas.front();
+  return std::make_shared<Mixture>(std::move(copulas), std::move(weights));
+}
+
+Part component_from(const Json& json, int dim, std::string_view source, std::span<const FamilyInfo> families) {
   const Json& family = json::field(json, "family");
   const FamilyInfo info =
       family.is_object() ? family_from(family, source, families) : family_named(json::text(json, "family"), families);
   ModelComponent component{.family = info.name, .theta = json::numbers(json, "theta"), .definition = info.definition};
   info.require_admissible(dim, component.theta);
-  return component;
+  return {std::move(component), info};
 }
 
 /// convert(entry) of each entry of an array, which errors name.
@@ -78,28 +95,44 @@ auto each_of(const Json& json, const char* name, const Convert& convert) {
   return values;
 }
 
-std::vector<ModelComponent> components_from(const Json& json, int dim, std::string_view source,
-                                            std::span<const FamilyInfo> families) {
+std::vector<Part> parts_from(const Json& json, int dim, std::string_view source, std::span<const FamilyInfo> families) {
   if (!json.contains("components")) return {component_from(json, dim, source, families)};
   if (json.contains("family") || json.contains("theta")) {
     throw std::invalid_argument("has the field 'components', so 'family' and 'theta' belong into its entries");
   }
   return each_of(json, "components", [&](const Json& entry) {
-    ModelComponent component = component_from(entry, dim, source, families);
-    component.weight = json::number(entry, "weight");
-    return component;
+    Part part = component_from(entry, dim, source, families);
+    part.component.weight = json::number(entry, "weight");
+    return part;
   });
 }
 
-CopulaModel model_from(const Json& json, std::string_view source, std::span<const FamilyInfo> families) {
+void require_weights(const std::vector<Part>& parts) {
+  if (parts.empty()) throw std::invalid_argument("a model needs one component or more, got none");
+  std::vector<double> weights;
+  for (const Part& part : parts) weights.push_back(part.component.weight);
+  Mixture::require_weights(weights, parts.size());
+}
+
+struct ReadModel {
+  CopulaModel model;
+  std::vector<Part> parts;  ///< its components
+};
+
+ReadModel model_from(const Json& json, std::string_view source, std::span<const FamilyInfo> families) {
   json::require_format(json, kFormat, kModelVersion);
   CopulaModel model{.dim = json::integer(json, "dim"), .components = {}};
-  model.components = components_from(json, model.dim, source, families);
+  if (model.dim > kMostStored) {
+    throw std::invalid_argument("field 'dim' must be at most " + std::to_string(kMostStored) + ", found " +
+                                std::to_string(model.dim));
+  }
+  std::vector<Part> parts = parts_from(json, model.dim, source, families);
+  for (const Part& part : parts) model.components.push_back(part.component);
   model.margins = each_of(json, "margins", margin_from);
   if (json.contains("name")) model.name = json::text(json, "name");
   require_margins(model);
-  if (json.contains("components")) (void)make_copula(model, families);  // checks the weights
-  return model;
+  if (json.contains("components")) require_weights(parts);
+  return {std::move(model), std::move(parts)};
 }
 
 Json family_json(const ModelComponent& component) {
@@ -120,27 +153,28 @@ std::string title_of(const CopulaModel& model) {
   return "Mixture of " + names;
 }
 
-FamilyInfo family_of_model(CopulaModel model, std::string_view source, std::span<const FamilyInfo> families) {
+FamilyInfo family_of_model(ReadModel read, std::string_view source) {
+  auto& [model, parts] = read;
   model.margins.clear();
   if (model.name.empty()) model.name = source;
   double total = 0;
   for (const ModelComponent& component : model.components) total += component.weight;
   double tau = 0;
   TailDependence tails{0, 0};
-  for (const ModelComponent& component : model.components) {
-    const FamilyInfo family = family_of(component, families);
+  for (const auto& [component, family] : parts) {
     const TailDependence part = family.tails(component.theta);
     const double share = component.weight / total;
-    tau = model.components.size() == 1 ? family.tau(component.theta) : std::numeric_limits<double>::quiet_NaN();
+    tau = parts.size() == 1 ? family.tau(component.theta) : std::numeric_limits<double>::quiet_NaN();
     tails = {tails.lower + share * part.lower, tails.upper + share * part.upper};
   }
+  const auto shared = std::make_shared<const std::vector<Part>>(std::move(parts));
   return {.name = model.name,
           .title = title_of(model),
           .psi = "",
           .source = "stored copula",
           .parameters = {},
           .examples = {Theta{}},
-          .make_unchecked = [copula = make_copula(model, families)](int, const Theta&) { return copula; },
+          .make_unchecked = [dim = model.dim, shared](int, const Theta&) { return copula_of(dim, *shared); },
           .tau = [tau](const Theta&) { return tau; },
           .theta_from_tau = {},
           .tails = [tails](const Theta&) { return tails; },
@@ -154,7 +188,7 @@ FamilyInfo family_from(const Json& json, std::string_view source, std::span<cons
                           Rotation(json::text(json, "rotation")));
   }
   if (json.is_object() && json.contains("format") && json["format"] == kFormat) {
-    return family_of_model(model_from(json, source, families), source, families);
+    return family_of_model(model_from(json, source, families), source);
   }
   return symbolic::make_family(symbolic::parse_definition(json.dump(), source));
 }
@@ -181,7 +215,7 @@ std::string to_json(const CopulaModel& model) {
 }
 
 CopulaModel parse_model(std::string_view json, std::string_view source, std::span<const FamilyInfo> families) {
-  return json::parse(json, source, [&](const Json& document) { return model_from(document, source, families); });
+  return json::parse(json, source, [&](const Json& document) { return model_from(document, source, families).model; });
 }
 
 CopulaModel read_model(const std::filesystem::path& path, std::span<const FamilyInfo> families) {
@@ -191,14 +225,9 @@ CopulaModel read_model(const std::filesystem::path& path, std::span<const Family
 
 CopulaPtr make_copula(const CopulaModel& model, std::span<const FamilyInfo> families) {
   if (model.components.empty()) throw std::invalid_argument("a model needs one component or more, got none");
-  std::vector<CopulaPtr> copulas;
-  std::vector<double> weights;
-  for (const ModelComponent& component : model.components) {
-    copulas.push_back(family_of(component, families).make(model.dim, component.theta));
-    weights.push_back(component.weight);
-  }
-  if (copulas.size() == 1 && weights.front() == 1) return copulas.front();
-  return std::make_shared<Mixture>(std::move(copulas), std::move(weights));
+  std::vector<Part> parts;
+  for (const ModelComponent& component : model.components) parts.push_back({component, family_of(component, families)});
+  return copula_of(model.dim, parts);
 }
 
 FamilyInfo family_from_json(std::string_view json, std::string_view source, std::span<const FamilyInfo> families) {

@@ -142,6 +142,29 @@ TEST(ModelIo, NamesWhatIsWrong) {
             "model.json: unknown family 'x'; known families: " + name);
 }
 
+TEST(ModelIo, RefusesNumbersBeyondDoubleAndWhatIsDeepOrWide) {
+  const std::string head = R"({"format":"sklar copula","version":)";
+  EXPECT_EQ(failure(head + "1e400}"), "model.json: holds a number that is beyond double");
+  constexpr std::size_t kLevels = 300000;  // by as many calls of a function the stack is too small
+  EXPECT_EQ(failure(head + std::string(kLevels, '[') + std::string(kLevels, ']') + "}"),
+            "model.json: nests more than 64 levels");
+  std::string fields = head + "1";
+  for (int n = 0; n < 10000; ++n) fields += ",\"" + std::to_string(n) + "\":0";
+  EXPECT_EQ(failure(fields + "}"), "model.json: has an object of more than 10000 fields");
+  EXPECT_EQ(failure(head + R"(1,"dim":1001})"), "model.json: field 'dim' must be at most 1000, found 1001");
+}
+
+TEST(ModelIo, ModelsInModelsAreEachReadOnce) {
+  std::string json = R"({"format":"sklar copula","version":1,"dim":2,"family":"frank","theta":[2],"margins":[]})";
+  constexpr int kModels = 40;  // read twice by each around it, the innermost would be read 2^40 times
+  for (int n = 0; n < kModels; ++n) {
+    json = R"({"format":"sklar copula","version":2,"dim":2,"theta":[],"margins":[],"family":)" + json + "}";
+  }
+  const CopulaModel model = parse_model(json, "model.json", families::all());
+  const Points u = Points::Constant(1, 2, 0.3);
+  EXPECT_EQ(make_copula(model, families::all())->log_pdf(u)(0), families::find("frank").make(2, {2})->log_pdf(u)(0));
+}
+
 TEST(ModelIo, NamesWhatIsWrongInAMixture) {
   const auto failure_of = [](const std::string& from, const std::string& to) {
     std::string json = kMixture;
