@@ -139,9 +139,11 @@ class Factors {
 
 constexpr long kExactBits = 1 << 16;  // a power of a number with more bits is left as it is
 
-/// The k-th root of a non-negative integer, or -1 if it is not an integer.
-Integer exact_root(const Integer& n, unsigned k) {
+/// The root of a non-negative integer, or -1 if it is not an integer.
+Integer exact_root(const Integer& n, const Integer& order) {
   if (n < 2) return n;
+  if (order > msb(n)) return -1;  // it is between 1 and 2
+  const auto k = static_cast<unsigned>(order);
   Integer low = 1;
   Integer high = Integer(1) << (msb(n) / k + 1);
   while (low <= high) {
@@ -171,9 +173,8 @@ Expression power_of_number(const Expression& base, const Expression& exponent) {
   if (bits > kExactBits) return make_node(Kind::power, {base, exponent});
   if (denominator(e) == 1) return number(integer_power(b, e));
   if (b < 0) return make_node(Kind::power, {base, exponent});
-  const auto k = static_cast<unsigned>(denominator(e));
-  const Integer top = exact_root(numerator(b), k);
-  const Integer bottom = exact_root(denominator(b), k);
+  const Integer top = exact_root(numerator(b), denominator(e));
+  const Integer bottom = exact_root(denominator(b), denominator(e));
   if (top >= 0 && bottom >= 0) return number(integer_power(Rational(top, bottom), e * denominator(e)));
   Integer whole = numerator(e) / denominator(e);
   if (e < 0) whole -= 1;

@@ -62,6 +62,14 @@ TEST(SymbolicExpression, DifferentFunctionsStayApart) {
   EXPECT_NE(parse("(t*theta)^(1/2)"), parse("t^(1/2)*theta^(1/2)"));
 }
 
+TEST(SymbolicExpression, RootsOfAnyOrderAreExactOrStay) {
+  EXPECT_EQ(parse("3^(700/7)"), parse("3^100"));
+  for (const char* order : {"3", "91000000", "4294967297", "1e30"}) {  // 2^32 + 1 among them
+    const Expression root = parse("7^(1/" + std::string(order) + ")");
+    EXPECT_EQ(root.kind(), Kind::power) << order << ": " << to_text(root);
+  }
+}
+
 TEST(SymbolicExpression, IsSharedBetweenThreads) {
   std::vector<Expression> results(8);
   std::vector<std::thread> threads;
