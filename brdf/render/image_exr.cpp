@@ -4,10 +4,17 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <openexr.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <exception>
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "brdf/render/image.hpp"
 #include "copula/error.hpp"
@@ -49,6 +56,55 @@ Imf::FrameBuffer slices(float* rgb, int width, int left, int top) {
   return buffer;
 }
 
+/// The file in memory.
+class MemoryInput final : public Imf::IStream {
+ public:
+  explicit MemoryInput(std::string_view bytes) : IStream("memory"), bytes_(bytes) {}
+  bool read(char to[], int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (position_ > bytes_.size() || size > bytes_.size() - position_)
+      throw std::invalid_argument("the file ends too soon");
+    std::memcpy(to, bytes_.data() + position_, size);
+    position_ += size;
+    return position_ < bytes_.size();
+  }
+  uint64_t tellg() override { return position_; }
+  void seekg(uint64_t position) override { position_ = position; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t position_ = 0;
+};
+
+/// Refuses what the reader above would take memory for before it has seen as much: headers whose sizes do not agree
+/// with the file, as the stricter core library finds them, and a picture larger than the file can hold.
+void require_room(std::string_view bytes) {
+  exr_context_initializer_t access = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  access.user_data = &bytes;
+  access.flags = EXR_CONTEXT_FLAG_STRICT_HEADER | EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE;
+  access.size_fn = [](exr_const_context_t, void* file) {
+    return static_cast<std::int64_t>(static_cast<const std::string_view*>(file)->size());
+  };
+  access.read_fn = [](exr_const_context_t, void* file, void* to, std::uint64_t count, std::uint64_t from,
+                      exr_stream_error_func_ptr_t) -> std::int64_t {
+    const auto& all = *static_cast<const std::string_view*>(file);
+    const std::string_view part = all.substr(std::min<std::uint64_t>(from, all.size()), count);
+    std::memcpy(to, part.data(), part.size());
+    return static_cast<std::int64_t>(part.size());
+  };
+  exr_context_t context = nullptr;
+  exr_attr_box2i_t window{};
+  exr_result_t result = exr_start_read(&context, "memory", &access);
+  if (result == EXR_ERR_SUCCESS) result = exr_get_data_window(context, 0, &window);
+  exr_finish(&context);
+  if (result != EXR_ERR_SUCCESS) throw std::invalid_argument(exr_get_default_error_message(result));
+  const auto extent = [](std::int64_t first, std::int64_t last) { return static_cast<double>(last - first + 1); };
+  const double pixels = extent(window.min.x, window.max.x) * extent(window.min.y, window.max.y);
+  constexpr double kPixelsPerByte = 1024;  // deflate, at most 1032 to 1, has 172 pixels of three half floats in a byte
+  if (pixels <= kPixelsPerByte * static_cast<double>(bytes.size())) return;
+  throw std::invalid_argument("more pixels than its " + std::to_string(bytes.size()) + " bytes can hold");
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const Image& image) {
@@ -66,22 +122,27 @@ void write_exr(const std::filesystem::path& path, const Image& image) {
   write_file(path, stream.bytes());
 }
 
-Image read_exr(const std::filesystem::path& path) try {
-  Imf::InputFile file(path.c_str(), 0);
-  for (const char* channel : kChannels) {
-    if (file.header().channels().findChannel(channel) == nullptr) {
-      throw FileError(path.string(), std::string("has no channel ") + channel + "; R, G and B are needed");
+Image read_exr(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  try {
+    require_room(bytes);
+    MemoryInput stream(bytes);
+    Imf::InputFile file(stream, 0);
+    for (const char* channel : kChannels) {
+      if (file.header().channels().findChannel(channel) == nullptr) {
+        throw std::invalid_argument(std::string("no channel ") + channel + "; R, G and B are needed");
+      }
     }
+    const Imath::Box2i window = file.header().dataWindow();
+    Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+    file.setFrameBuffer(slices(image.rgb.data(), image.width, window.min.x, window.min.y));
+    file.readPixels(window.min.y, window.max.y);
+    return image;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw FileError(path.string(), std::string("cannot be read as OpenEXR: ") + error.what());
   }
-  const Imath::Box2i window = file.header().dataWindow();
-  Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
-  file.setFrameBuffer(slices(image.rgb.data(), image.width, window.min.x, window.min.y));
-  file.readPixels(window.min.y, window.max.y);
-  return image;
-} catch (const FileError&) {
-  throw;
-} catch (const std::exception& error) {
-  throw FileError(path.string(), std::string("cannot be read as OpenEXR: ") + error.what());
 }
 
 }  // namespace sklar::brdf

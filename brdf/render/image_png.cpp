@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -41,12 +42,20 @@ void write_png(const std::filesystem::path& path, const Bytes& bytes) {
 }
 
 Bytes read_png(const std::filesystem::path& path) {
+  const std::string file = read_file(path);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  bool read = png_image_begin_read_from_file(&image, path.c_str()) != 0;
+  const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&image, &png_image_free);
+  bool read = png_image_begin_read_from_memory(&image, file.data(), file.size()) != 0;
   image.format = PNG_FORMAT_RGB;
   Bytes bytes{static_cast<int>(image.width), static_cast<int>(image.height), {}};
   if (read) {
+    constexpr double kPixelsPerByte = 8 * 1032;  // of one bit, by deflate
+    if (double{1} * image.width * image.height > kPixelsPerByte * static_cast<double>(file.size())) {
+      throw FileError(path.string(), "cannot be read as PNG: promises " + std::to_string(image.width) + " x " +
+                                         std::to_string(image.height) + " pixels, more than its " +
+                                         std::to_string(file.size()) + " bytes can hold");
+    }
     bytes.rgb.resize(PNG_IMAGE_SIZE(image));
     const png_color white{255, 255, 255};
     read = png_image_finish_read(&image, &white, bytes.rgb.data(), 0, nullptr) != 0;
