@@ -8,12 +8,18 @@
 #include "brdf/data/rgl.hpp"
 #include "brdf/data/scattered.hpp"
 #include "brdf/data/table_brdf.hpp"
+#include "copula/json_fields.hpp"
 
 namespace sklar::brdf {
 namespace {
 
 std::string material_name(const std::filesystem::path& path) {
   std::string name = path.stem().string();
+  try {
+    json::require_utf8("the name of the file", name);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(path.string(), error.what());
+  }
   for (const std::string_view suffix : {"_rgb", "_spec"}) {
     if (name.size() > suffix.size() && name.ends_with(suffix)) {
       name.resize(name.size() - suffix.size());

@@ -9,6 +9,7 @@
 #include "brdf/model/coupling.hpp"
 #include "brdf/model/structure_fields.hpp"
 #include "copula/error.hpp"
+#include "copula/json_fields.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -67,7 +68,11 @@ class Reader {
     std::memcpy(&value, raw(sizeof value).data(), sizeof value);
     return value;
   }
-  [[nodiscard]] std::string text() { return std::string(raw(number<std::uint32_t>())); }
+  [[nodiscard]] std::string text() {
+    std::string result(raw(number<std::uint32_t>()));
+    json::require_utf8("a text", result);
+    return result;
+  }
 
   [[nodiscard]] std::vector<std::uint16_t> levels(const std::vector<CoefficientRun>& runs) {
     std::vector<std::uint16_t> result;

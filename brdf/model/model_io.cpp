@@ -112,8 +112,10 @@ void write_packed(const PackedCoefficients& packed, Json& json) {
 
 AxisRange range_from(const Json& json, const char* name) {
   const Json& ends = json::array(json, name);
-  if (ends.size() != 2 || !ends[0].is_number_integer() || !ends[1].is_number_integer()) {
-    throw std::invalid_argument("field '" + std::string(name) + "' must be two whole numbers, found " + ends.dump());
+  const auto whole = [](const Json& end) { return end.is_number_integer() && end >= 0 && end <= AxisRange::kWhole; };
+  if (ends.size() != 2 || !whole(ends[0]) || !whole(ends[1])) {
+    throw std::invalid_argument("field '" + std::string(name) + "' must be two whole numbers in 0 to " +
+                                std::to_string(AxisRange::kWhole) + ", found " + ends.dump());
   }
   return {ends[0].get<int>(), ends[1].get<int>()};
 }
