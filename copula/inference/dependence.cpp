@@ -7,8 +7,17 @@
 
 #include "copula/error.hpp"
 #include "copula/inference/checks.hpp"
+#include "copula/inference/ranks.hpp"
 
 namespace sklar {
+
+std::vector<Index> sorted_order(const ColumnRef& x) {
+  std::vector<Index> order(static_cast<std::size_t>(x.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&x](Index a, Index b) { return x[a] < x[b]; });
+  return order;
+}
+
 namespace {
 
 /// Sums of weights by rank: add and prefix sum in O(log n) (Fenwick 1994).
@@ -30,24 +39,6 @@ class WeightsByRank {
  private:
   std::vector<double> tree_;
 };
-
-std::vector<Index> sorted_order(const ColumnRef& x) {
-  std::vector<Index> order(static_cast<std::size_t>(x.size()));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(), [&x](Index a, Index b) { return x[a] < x[b]; });
-  return order;
-}
-
-/// Calls body(first, last) for every run of equal values of x in the sorted order.
-template <class Body>
-void for_each_run(const ColumnRef& x, const std::vector<Index>& order, Body body) {
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t last = first + 1;
-    while (last < order.size() && x[order[last]] == x[order[first]]) ++last;
-    body(first, last);
-    first = last;
-  }
-}
 
 struct DenseRanks {
   std::vector<std::size_t> rank;
