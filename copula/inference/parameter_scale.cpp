@@ -71,6 +71,15 @@ Theta ParameterScale::theta(const std::vector<double>& z) const {
   return theta;
 }
 
+std::vector<double> ParameterScale::z(const Theta& theta) const {
+  if (by_tau_) return at_tau(family_->tau(theta));
+  std::vector<double> z(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    z[i] = std::clamp(to_z(theta[i], domain_[i]), box_.lower[i], box_.upper[i]);
+  }
+  return z;
+}
+
 std::vector<double> ParameterScale::slope(const std::vector<double>& z) const {
   std::vector<double> slope(size());
   for (std::size_t i = 0; i < size(); ++i) slope[i] = theta_slope(z[i], domain_[i]);
@@ -107,13 +116,11 @@ std::vector<std::vector<double>> ParameterScale::lattice() const {
   }
   if (by_tau_) return points;
   for (const Theta& example : family_->examples) {
-    std::vector<double> z(size());
     bool admissible = example.size() == size();
     for (std::size_t i = 0; i < size() && admissible; ++i) {
       admissible = domain_[i].contains(example[i]);
-      z[i] = std::clamp(to_z(example[i], domain_[i]), box_.lower[i], box_.upper[i]);
     }
-    if (admissible) points.push_back(std::move(z));
+    if (admissible) points.push_back(z(example));
   }
   return points;
 }

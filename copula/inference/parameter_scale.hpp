@@ -31,6 +31,9 @@ class ParameterScale {
   /// Admissible parameters. Precondition: z in the box.
   [[nodiscard]] Theta theta(const std::vector<double>& z) const;
 
+  /// The z in the box nearest to that of admissible parameters.
+  [[nodiscard]] std::vector<double> z(const Theta& theta) const;
+
   /// d theta_i / d z_i. Precondition: z in the box, not by_tau().
   [[nodiscard]] std::vector<double> slope(const std::vector<double>& z) const;
 
