@@ -25,6 +25,9 @@ class Mixture final : public Copula {
 
   [[nodiscard]] bool has_frailty() const override;
 
+  [[nodiscard]] const std::vector<CopulaPtr>& components() const noexcept { return components_; }
+  [[nodiscard]] const std::vector<double>& weights() const noexcept { return weights_; }  ///< as given
+
  private:
   class Conditional;
   class Exact;
