@@ -12,9 +12,9 @@
 namespace sklar {
 namespace {
 
-std::string failure(std::string_view text) {
+std::string failure(std::string_view text, const CsvOptions& options = {}) {
   try {
-    (void)parse_csv(text, "data.csv");
+    (void)parse_csv(text, "data.csv", options);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -48,6 +48,49 @@ TEST(Csv, NamesTheLineAtFault) {
   EXPECT_EQ(failure("x,y\n1,2\n1,1.5x\n"), "data.csv: line 3: column y: '1.5x' is not a number");
   EXPECT_EQ(failure("x,y\n1,\n"), "data.csv: line 2: column y: '' is not a number");
   EXPECT_EQ(failure("x\n1e999\n"), "data.csv: line 2: column x: '1e999' is not a number");
+}
+
+TEST(Csv, ReadsFieldsInQuotes) {
+  const Table table = parse_csv("\"loss, total\" , \"a \"\"b\"\"\",\"two\nlines\"\n\"1\",2 ,\" 3\"\n4,5,6\n",
+                                "data.csv", {.columns = {"two\nlines", "a \"b\"", "loss, total"}});
+  EXPECT_EQ(table.names, (std::vector<std::string>{"two\nlines", "a \"b\"", "loss, total"}));
+  EXPECT_EQ(table.lines, (std::vector<Index>{3, 4}));
+  EXPECT_TRUE((table.values.row(1) == Points{{6, 5, 4}}).all());
+  EXPECT_EQ(parse_csv(to_csv(table.names, table.values), "data.csv").names, table.names);
+  EXPECT_EQ(failure("x,\"y\n1,2\n"), "data.csv: line 1: a quote is not closed");
+  EXPECT_EQ(failure("x,y\n1,\"2\"3\n"), "data.csv: line 2: text behind a closing quote");
+  EXPECT_EQ(failure("x,\"a\nb\"\n1,z\n"), "data.csv: line 3: column a\nb: 'z' is not a number");
+}
+
+TEST(Csv, ChoosesColumnsByName) {
+  const Table table = parse_csv(",x,place,y\n1,2,Rome,3\n2,4,NA,5\n", "data.csv", {.columns = {"y", "x"}});
+  EXPECT_EQ(table.names, (std::vector<std::string>{"y", "x"}));
+  EXPECT_TRUE((table.values == Points{{3, 2}, {5, 4}}).all());
+  EXPECT_EQ(failure("x,y\n1,2\n", {.columns = {"z"}}), "data.csv: line 1: no column 'z'; columns: x, y");
+  EXPECT_EQ(failure("x,x\n1,2\n", {.columns = {"x"}}), "data.csv: line 1: two columns are named 'x'");
+}
+
+TEST(Csv, MissingValuesAreCountedOrTheirRowsDropped) {
+  const std::string text = "x,y,z\n1,2,3\n4,,5\n.,NA,\n6,7,8\nNaN,nan,1\n9,10,NA\n";
+  EXPECT_EQ(failure(text, {.missing = Missing::refuse}),
+            "data.csv: 7 values are missing in 4 of 6 rows, the first in line 3, column y; drop such rows (missing: "
+            "drop) or choose other columns");
+  EXPECT_EQ(failure("x\n1\nNA\n", {.missing = Missing::refuse}),
+            "data.csv: 1 value is missing in 1 of 2 rows, the first in line 3, column x; drop such rows (missing: "
+            "drop) or choose other columns");
+  const Table table = parse_csv(text, "data.csv", {.missing = Missing::drop});
+  EXPECT_TRUE((table.values == Points{{1, 2, 3}, {6, 7, 8}}).all());
+  EXPECT_EQ(table.lines, (std::vector<Index>{2, 5}));
+  EXPECT_EQ(table.dropped, 4);
+  // A value that misses in a column that is not read does not count.
+  EXPECT_EQ(parse_csv(text, "data.csv", {.columns = {"x"}, .missing = Missing::drop}).dropped, 2);
+}
+
+TEST(Csv, WhatIsNoNumberIsNotMissing) {
+  for (const Missing missing : {Missing::refuse, Missing::drop}) {
+    EXPECT_EQ(failure("x,y\n1,n/a\n", {.missing = missing}), "data.csv: line 2: column y: 'n/a' is not a number");
+  }
+  EXPECT_EQ(failure("x,y\n1,NA\n"), "data.csv: line 2: column y: 'NA' is not a number");
 }
 
 class CsvFile : public test::TemporaryFolder {};
