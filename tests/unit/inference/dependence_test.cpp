@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -99,6 +100,63 @@ TEST(PseudoObservations, AreMeanRanksOverNPlusOne) {
   const Points x{{3.0, 1.0}, {-1.0, 1.0}, {3.0, 0.0}, {7.0, 1.0}};
   const Points expected{{2.5, 3.0}, {1.0, 3.0}, {2.5, 1.0}, {4.0, 3.0}};
   EXPECT_TRUE((pseudo_observations(x) == expected / 5).all()) << pseudo_observations(x);
+}
+
+TEST(SpearmanRho, IsTheCorrelationOfTheRanks) {
+  // Without ties 1 - 6 sum d^2 / (n (n^2 - 1)): d = 1 1 1 1 0.
+  const Column x{{1, 2, 3, 4, 5}};
+  const Column y{{2, 1, 4, 3.5, 9}};
+  EXPECT_DOUBLE_EQ(spearman_rho(x, y), 1 - 6 * 4.0 / (5 * 24));
+  // Ranks 1.5 1.5 3 4 and 1 3 3 3, less their mean 2.5: the sum of products is 2, those of squares 4.5 and 3.
+  EXPECT_DOUBLE_EQ(spearman_rho(Column{{0, 0, 1, 2}}, Column{{0, 5, 5, 5}}), 2 / std::sqrt(4.5 * 3));
+  EXPECT_DOUBLE_EQ(spearman_rho(x, x.exp()), 1);
+  EXPECT_DOUBLE_EQ(spearman_rho(x, -x), -1);
+  EXPECT_TRUE(std::isnan(spearman_rho(x, Column::Ones(5))));
+  EXPECT_THROW((void)spearman_rho(x, y.head(3)), std::invalid_argument);
+  EXPECT_DOUBLE_EQ(mean_spearman_rho(Points{{1, 2, 2}, {2, 1, 1}, {3, 3, 3}}), (0.5 + 0.5 + 1) / 3);
+}
+
+TEST(SpearmanRho, WeightIsMultiplicityAndItsScaleDoesNotMatter) {
+  const Column x{{1, 2, 3, 4, 5}};
+  const Column y{{2, 1, 4, 5, 3}};
+  const Column weights{{1, 2, 0, 3, 1}};
+  const double expected = spearman_rho(Column{{1, 2, 2, 4, 4, 4, 5}}, Column{{2, 1, 1, 5, 5, 5, 3}});
+  EXPECT_DOUBLE_EQ(spearman_rho(x, y, weights), expected);
+  EXPECT_DOUBLE_EQ(spearman_rho(x, y, weights * 1e-100), expected);
+}
+
+TEST(PseudoObservations, TiesAreRankedAsAskedFor) {
+  const Points x{{3.0}, {-1.0}, {3.0}, {7.0}, {3.0}};
+  const auto ranks = [&](Ties ties, std::uint64_t seed = 1) {
+    return Column(pseudo_observations(x, Column(), {.ties = ties, .seed = seed}).col(0) * 6);
+  };
+  EXPECT_TRUE((ranks(Ties::average) == Column{{3, 1, 3, 5, 3}}).all());
+  EXPECT_TRUE((ranks(Ties::lowest) == Column{{2, 1, 2, 5, 2}}).all());
+  EXPECT_TRUE((ranks(Ties::highest) == Column{{4, 1, 4, 5, 4}}).all());
+  Column sum = Column::Zero(5);
+  constexpr int kSeeds = 600;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    Column random = ranks(Ties::random, static_cast<std::uint64_t>(seed));
+    sum += random;
+    std::sort(random.begin(), random.end());
+    EXPECT_TRUE((random - Column{{1, 2, 3, 4, 5}}).abs().maxCoeff() < 1e-14) << seed;
+  }
+  // The mean of kSeeds ranks among 2, 3, 4: four standard errors of sqrt(2/3) each.
+  EXPECT_LE((sum / kSeeds - Column{{3, 1, 3, 5, 3}}).abs().maxCoeff(), 4 * std::sqrt(2.0 / 3 / kSeeds));
+  EXPECT_TRUE((ranks(Ties::random, 5) == ranks(Ties::random, 5)).all());
+  EXPECT_EQ(tied_rows(Points{{1, 1, 2}, {2, 1, 2}, {3, 1, 3}, {2, 2, 3}}), (std::vector<Index>{2, 3, 4}));
+}
+
+TEST(PseudoObservations, WeightIsMultiplicity) {
+  const Points x{{3.0}, {1.0}, {3.0}, {2.0}};
+  const Column weights{{2, 1, 1, 3}};
+  const Points repeated{{3.0}, {3.0}, {1.0}, {3.0}, {2.0}, {2.0}, {2.0}};
+  const Points all = pseudo_observations(repeated);
+  EXPECT_TRUE((pseudo_observations(x, weights).col(0) == Column{{all(0), all(2), all(3), all(4)}}).all());
+  // A row of weight 2 tied with one of weight 1, above ranks 1 to 4: it takes the mean of its own two ranks.
+  EXPECT_TRUE((pseudo_observations(x, weights, {.ties = Ties::lowest}) * 8 == Points{{5.5}, {1}, {5}, {3}}).all());
+  EXPECT_TRUE((pseudo_observations(x, weights, {.ties = Ties::highest}) * 8 == Points{{6.5}, {1}, {7}, {3}}).all());
+  EXPECT_THROW((void)pseudo_observations(x, -weights), std::domain_error);
 }
 
 TEST(PseudoObservations, NameTheEntryThatIsNotFinite) {
