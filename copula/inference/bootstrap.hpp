@@ -8,6 +8,7 @@
 
 namespace sklar {
 
+/// How a parametric bootstrap draws and fits.
 struct BootstrapOptions {
   int replicates = 1000;   ///< >= 1
   std::uint64_t seed = 1;  ///< one seed gives one result, whatever the number of threads

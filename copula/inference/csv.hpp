@@ -26,6 +26,7 @@ enum class Missing {
   drop     ///< its row is left out
 };
 
+/// Which columns and rows of a text are read.
 struct CsvOptions {
   std::vector<std::string> columns = {};  ///< read these, in this order; none for all. The others may hold any text.
   Missing missing = Missing::number;

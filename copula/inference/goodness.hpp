@@ -23,10 +23,12 @@ namespace sklar {
 /// @throws as cramer_von_mises.
 [[nodiscard]] double rosenblatt_distance(const Copula& copula, const PointsRef& u);
 
+/// What measures the distance between data and a copula.
 enum class GoodnessStatistic { cramer_von_mises, rosenblatt };
 
 [[nodiscard]] std::string_view to_text(GoodnessStatistic statistic);  ///< "cvm", "rosenblatt"
 
+/// The statistic and its bootstrap.
 struct GoodnessOptions {
   GoodnessStatistic statistic = GoodnessStatistic::cramer_von_mises;
   FitMethod method = FitMethod::maximum_likelihood;  ///< of the data and of every replicate

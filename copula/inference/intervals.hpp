@@ -21,6 +21,7 @@ enum class IntervalMethod { wald, profile, bootstrap };
 
 [[nodiscard]] std::string_view to_text(IntervalMethod method);  ///< "wald", "profile", "bootstrap"
 
+/// Level and kind of an interval.
 struct IntervalOptions {
   IntervalMethod method = IntervalMethod::wald;
   double confidence = 0.95;  ///< in (0,1)
