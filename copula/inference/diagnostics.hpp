@@ -36,7 +36,8 @@ inline constexpr Index kKendallDraws = 20'000;
 /// @param u n x d strictly in (0,1). @throws std::invalid_argument, std::domain_error
 [[nodiscard]] Column squared_normal_scores(const Copula& copula, const PointsRef& u);
 
-/// @param p in [0,1). @param degrees >= 1. @throws std::domain_error
+/// The x below which a chi-square variable is with probability p. @param p in [0,1). @param degrees >= 1. @throws
+/// std::domain_error
 [[nodiscard]] double chi_square_quantile(double p, int degrees);
 
 }  // namespace sklar

@@ -44,7 +44,7 @@ TEST_F(HelpCommand, ChoicesAreNames) {
 
 TEST_F(HelpCommand, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(offered("sklar co"), "copula");
-  EXPECT_EQ(offered("sklar copula ''"), "table sample fit derive");
+  EXPECT_EQ(offered("sklar copula ''"), "table sample fit plot derive");
   EXPECT_EQ(offered("sklar copula f"), "fit");
   EXPECT_EQ(offered("sklar copula fit --m"), "--margins --method");
   EXPECT_EQ(offered("sklar copula fit data.csv --method ''"), "ml ls tau");

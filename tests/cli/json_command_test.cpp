@@ -125,6 +125,7 @@ TEST_F(JsonCommand, CopulaCommandsPrintWhatThePageSays) {
   expect_output("sklar copula sample", "copula sample --family clayton --theta 2 --dim 3 -n 4");
   expect_output("sklar copula fit", "copula fit data.csv");
   expect_output("sklar copula fit", "copula fit data.csv --method tau --families frank,joe");
+  expect_output("sklar copula plot", "copula plot data.csv --families frank");
   expect_output("sklar copula derive", "copula derive 'exp(-theta*t)' --order 2");
   expect_output("sklar tradeoff", "tradeoff --families independence --rows 10");
 }
