@@ -59,9 +59,8 @@ std::string usage(const NamedCommand& command) {
 std::string manual_page(const CLI::App& app) {
   std::vector<NamedCommand> commands = all_commands(app);
   std::erase_if(commands, [](const NamedCommand& command) { return !command.app->get_subcommands({}).empty(); });
-  const std::string name = app.get_name();
-  std::string page = ".TH SKLAR 1 \"\" \"sklar " SKLAR_VERSION "\" \"User Commands\"\n.SH NAME\n" + name + " \\- " +
-                     escaped(app.get_description()) + "\n.SH SYNOPSIS\n";
+  std::string page = ".TH SKLAR 1 \"\" \"sklar " SKLAR_VERSION "\" \"User Commands\"\n.SH NAME\n" + app.get_name() +
+                     " \\- " + escaped(app.get_description()) + "\n.SH SYNOPSIS\n";
   for (const NamedCommand& command : commands) {
     page += (command.app == commands.front().app ? "\\fB" : ".br\n\\fB") + escaped(usage(command)) + "\\fR\n";
   }

@@ -70,9 +70,10 @@ void expect_fields(const Fields& fields, const Json& value, const std::string& p
     for (const auto& [name, optional] : known) {
       EXPECT_TRUE(optional || value.contains(name)) << path << " has no field " << name;
     }
+    const std::string prefix = path.empty() ? "" : path + ".";
     for (const auto& [name, entry] : value.items()) {
       ASSERT_TRUE(known.contains(name)) << path << " has a field " << name << ", which docs/json.md has not";
-      expect_fields(fields, entry, path.empty() ? name : path + "." + name);
+      expect_fields(fields, entry, prefix + name);
     }
   } else if (value.is_array()) {
     for (const Json& entry : value) expect_fields(fields, entry, path + "[]");
