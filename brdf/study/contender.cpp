@@ -19,9 +19,9 @@ namespace {
 
 constexpr const char* kFamily = "frank";
 
-ContenderFit sampled(BrdfPtr brdf, std::string note) {
-  const std::size_t bytes = brdf->bytes();
-  return {std::make_shared<const SampledBrdf>(std::move(brdf)), bytes, std::move(note)};
+template <class Model>
+ContenderFit sampled(const std::shared_ptr<const Model>& model, std::string note) {
+  return {std::make_shared<const SampledBrdf>(model), model->bytes(), std::move(note), model};
 }
 
 Contender refined(double max_bytes) {
@@ -69,6 +69,7 @@ Contender basis_contender(const BasisInfo& info, double max_bytes) {
           .title = info.title,
           .source = info.source,
           .max_bytes = max_bytes,
+          .learns = info.learns_from > 0,
           .fit = [&info, max_bytes](const ContenderData& data) {
             std::string note;
             const double most = max_bytes > 0 ? max_bytes : std::numeric_limits<double>::infinity();

@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "brdf/brdf.hpp"
 #include "brdf/data/measured_table.hpp"
+#include "brdf/model/model_io.hpp"
 
 namespace sklar::brdf {
 
@@ -16,13 +18,16 @@ namespace sklar::brdf {
 struct ContenderData {
   std::shared_ptr<const MeasuredTable> table;
   std::span<const std::shared_ptr<const MeasuredTable>> others;  ///< for models that learn from a set of materials
+  std::string inputs = {};            ///< tells the table from another of its name, whatever the text; empty: not known
+  std::string inputs_of_others = {};  ///< the same of the others
 };
 
 /// A model that was fitted.
 struct ContenderFit {
-  BrdfPtr brdf;       ///< with the sampler that the model has
-  std::size_t bytes;  ///< of the model, without a sampler made for it
-  std::string note;   ///< what the fit has to say, empty for nothing
+  BrdfPtr brdf;                        ///< with the sampler that the model has
+  std::size_t bytes;                   ///< of the model, without a sampler made for it
+  std::string note;                    ///< what the fit has to say, empty for nothing
+  std::optional<ModelPtr> model = {};  ///< of models that can be stored
 };
 
 struct Contender {
@@ -31,6 +36,7 @@ struct Contender {
   std::string title;     ///< as printed
   std::string source;    ///< reference
   double max_bytes = 0;  ///< the budget, 0 for a model of one size
+  bool learns = false;   ///< from other materials
   std::function<ContenderFit(const ContenderData&)> fit = {};  ///< throws std::runtime_error, std::logic_error
   std::string isotropic_form = {};                             ///< AnalyticInfo::isotropic_form
 

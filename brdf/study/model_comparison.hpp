@@ -37,6 +37,7 @@ struct ModelRow {
   double albedo_max = kNone;           ///< of albedo_angles() and the channels
   std::string note = {};               ///< what the fit has to say
   std::string error = {};              ///< why there is no model
+  std::string inputs = {};             ///< what it was made from, inputs_of_job; in the file of the row alone
 };
 
 /// Mean of |f(wo, wi) - f(wi, wo)| over the mean of |f|, over 4096 seeded random pairs and the channels; 0 where both
@@ -51,9 +52,8 @@ struct ModelComparison {
   std::vector<std::string> curves;  ///< and of the rows; empty where there is no model
 };
 
-/// Fits and judges each contender and keeps what is finished in FOLDER/MATERIAL/NAME.json with NAME.exr, its sphere,
-/// and NAME.curves.json, its curves_json: what is there already is read instead, so that an interrupted comparison goes
-/// on where it was.
+/// Fits and judges each contender and keeps what is finished in FOLDER/MATERIAL, as ModelJobs: what is there already,
+/// made from the same inputs, is read instead, so that an interrupted comparison goes on where it was.
 /// @param progress called with what is being done, for a person to read.
 /// @throws FileError for a folder that cannot be written or a row in it that is damaged, naming it.
 [[nodiscard]] ModelComparison compare_models(const ContenderData& data, std::span<const Contender> contenders,

@@ -106,14 +106,17 @@ using Ranks = std::vector<double>;
 /// Rank of each row among those of its material that have the figure, 1 is best, equals share theirs; NaN for a row
 /// without it.
 Ranks ranks(std::span<const ModelRow> rows, const Figure& figure) {
+  std::map<std::string_view, std::vector<double>> values;  // of each material
+  for (const ModelRow& row : rows) {
+    if (row.error.empty()) values[row.material].push_back(row.*figure.value);
+  }
   Ranks result;
   for (const ModelRow& row : rows) {
+    const double own = row.*figure.value;
     int better = 0, equal = 0;
-    for (const ModelRow& other : rows) {
-      if (other.material != row.material || !other.error.empty()) continue;
-      const double a = other.*figure.value, b = row.*figure.value;
-      better += figure.better == Better::lower ? a < b : a > b;
-      equal += a == b;
+    for (const double value : values[row.material]) {
+      better += figure.better == Better::lower ? value < own : value > own;
+      equal += value == own;
     }
     result.push_back(equal > 0 ? better + (equal + 1) / 2.0 : ModelRow::kNone);
   }
@@ -144,6 +147,7 @@ struct Summary {
 std::string to_json(const ModelRow& row) {
   Json document = {{"format", kFormat}, {"version", 1}};
   document.update(row_to_json(row));
+  document["inputs"] = row.inputs;
   return document.dump(1) + "\n";
 }
 
@@ -156,7 +160,8 @@ ModelRow model_row_from_json(std::string_view text, std::string_view source) {
                  .model = json::text(document, "model"),
                  .budget = json::number(document, "budget"),
                  .note = json::text(document, "note"),
-                 .error = json::text(document, "error")};
+                 .error = json::text(document, "error"),
+                 .inputs = document.contains("inputs") ? json::text(document, "inputs") : ""};
     for (const Figure& figure : kFigures) row.*figure.value = number_or_text(document, figure.name);
     return row;
   });

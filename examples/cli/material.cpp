@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 
 #include "brdf/analytic/synthetic.hpp"
@@ -10,8 +11,31 @@
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/model/model_io.hpp"
 #include "brdf/sampling/sampled_brdf.hpp"
+#include "copula/file.hpp"
 
 namespace sklar::cli {
+namespace {
+
+bool is_synthetic(const std::string& path) {
+  return path.empty() || path == kSynthetic;
+}
+
+std::string hexadecimal(std::uint64_t value) {
+  std::string digits(16, '0');
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, value >>= 4)
+    *digit = "0123456789abcdef"[value & 15];
+  return digits;
+}
+
+/// Fowler, Noll and Vo; RFC 9923.
+std::uint64_t fnv1a(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+  return hash;
+}
+
+}  // namespace
+
 void add_material(CLI::App& command, std::string& path) {
   command.add_option("MATERIAL", path, kMaterialHelp);
 }
@@ -19,13 +43,19 @@ void add_material(CLI::App& command, std::string& path) {
 std::shared_ptr<const brdf::MeasuredTable> load_table(const std::string& path, brdf::Provenance provenance) {
   if (path == brdf::kAnisotropicSynthetic)
     throw brdf::anisotropic_error(path, brdf::isotropy_deviation(*brdf::brushed_metal()));
-  return std::make_shared<const brdf::MeasuredTable>(
-      path.empty() || path == "synthetic" ? brdf::builtin_material() : brdf::load_material(path, provenance));
+  return std::make_shared<const brdf::MeasuredTable>(is_synthetic(path) ? brdf::builtin_material()
+                                                                        : brdf::load_material(path, provenance));
+}
+
+std::string inputs_of(const std::string& path, brdf::Provenance provenance) {
+  const std::string version = "sklar " SKLAR_VERSION ", ";
+  if (is_synthetic(path)) return version + kSynthetic;
+  return version + "provenance " + to_text(provenance) + ", content " + hexadecimal(fnv1a(read_file(path)));
 }
 
 brdf::Material load_any_table(const std::string& path, brdf::Provenance provenance) {
   if (path == brdf::kAnisotropicSynthetic) return brdf::builtin_anisotropic_material();
-  if (path.empty() || path == "synthetic") return brdf::builtin_material();
+  if (is_synthetic(path)) return brdf::builtin_material();
   return brdf::read_material(path, provenance);
 }
 
@@ -34,7 +64,7 @@ brdf::BrdfPtr load_brdf(const std::string& path) {
     return std::make_shared<const brdf::AnisotropicTableBrdf>(
         std::make_shared<const brdf::AnisotropicTable>(brdf::builtin_anisotropic_material()));
   }
-  if (path.empty() || path == "synthetic") return std::make_shared<const brdf::TableBrdf>(load_table(path));
+  if (is_synthetic(path)) return std::make_shared<const brdf::TableBrdf>(load_table(path));
   if (brdf::is_model_path(path)) return brdf::read_brdf(path).brdf();
   return brdf::read_material_brdf(path);
 }

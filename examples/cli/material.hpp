@@ -15,6 +15,9 @@ inline constexpr const char* kMaterialHelp =
     "MERL .binary, RGL .bsdf, pbrt-v2 .brdf, .csv of wi, wo, rgb, or one of the built-in materials synthetic (the "
     "default) and synthetic-anisotropic";
 
+/// The built-in isotropic material.
+inline constexpr const char* kSynthetic = "synthetic";
+
 /// Adds the positional MATERIAL; omitted, it is the built-in one.
 void add_material(CLI::App& command, std::string& path);
 
@@ -22,6 +25,10 @@ void add_material(CLI::App& command, std::string& path);
 /// @param provenance of a file whose format does not say. @throws FileError; also for an anisotropic material.
 [[nodiscard]] std::shared_ptr<const brdf::MeasuredTable> load_table(
     const std::string& path, brdf::Provenance provenance = brdf::Provenance::unknown);
+
+/// ContenderData::inputs: the version of this program, the provenance, and the 64-bit FNV-1a hash of the file or the
+/// name of the built-in material. @throws FileError
+[[nodiscard]] std::string inputs_of(const std::string& path, brdf::Provenance provenance);
 
 /// A material on three coordinates where it is isotropic, on four where not. @throws FileError.
 [[nodiscard]] brdf::Material load_any_table(const std::string& path, brdf::Provenance provenance);

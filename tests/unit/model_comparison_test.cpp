@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -10,10 +11,14 @@
 #include "brdf/analytic/registry.hpp"
 #include "brdf/analytic/synthetic.hpp"
 #include "brdf/basis/registry.hpp"
+#include "brdf/model/model_io.hpp"
+#include "brdf/study/model_batch.hpp"
 #include "brdf/study/model_row.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "families/registry.hpp"
 #include "tests/support/function_brdf.hpp"
+#include "tests/support/refined_cases.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace sklar::brdf {
@@ -26,10 +31,27 @@ class ModelComparisonTest : public test::TemporaryFolder {
   const std::shared_ptr<const MeasuredTable> table_ = std::make_shared<const MeasuredTable>(builtin_material());
 };
 
+/// One that can be stored.
+ModelPtr small_model() {
+  const RefinedStructure structure = test::small_structure();
+  const RefinedLayout layout(structure, {false, false});
+  const std::vector<double> zeros(static_cast<std::size_t>(layout.size()), 0);
+  const std::vector<FamilyInfo> families(2, families::find("independence"));
+  return std::make_shared<const RefinedBrdf>(structure, families, pack(layout, 12, zeros));
+}
+
 Contender constant(const std::string& name, double albedo, int& fits) {
   return {.model = name, .kind = "analytic", .title = name, .source = "a test", .fit = [albedo, &fits](const auto&) {
             ++fits;
-            return ContenderFit{std::make_shared<const Lambert>(Rgb::Constant(albedo)), 24, "as told"};
+            return ContenderFit{std::make_shared<const Lambert>(Rgb::Constant(albedo)), 24, "as told", small_model()};
+          }};
+}
+
+Contender unfit(const std::string& name, std::atomic<int>& fits) {
+  return {.model = name, .kind = "basis", .title = name, .source = "a test", .fit = [&fits](const auto&) {
+            ++fits;
+            throw std::runtime_error("too little data");
+            return ContenderFit{};
           }};
 }
 
@@ -38,10 +60,8 @@ TEST_F(ModelComparisonTest, JudgesKeepsAndGoesOn) {
   std::vector<Contender> contenders = {constant("grey", 0.2, fits)};
   (void)compare_models({.table = table_, .others = {}}, contenders, folder_);
   contenders.push_back(constant("white", 1, fits));
-  contenders.push_back({.model = "none", .kind = "basis", .title = "none", .source = "a test", .fit = [](const auto&) {
-                          throw std::runtime_error("too little data");
-                          return ContenderFit{};
-                        }});
+  std::atomic<int> unfits = 0;
+  contenders.push_back(unfit("none", unfits));
   std::vector<std::string> said;
   const ModelComparison comparison = compare_models({.table = table_, .others = {}}, contenders, folder_,
                                                     [&](const std::string& what) { said.push_back(what); });
@@ -66,6 +86,9 @@ TEST_F(ModelComparisonTest, JudgesKeepsAndGoesOn) {
   EXPECT_NE(comparison.reference_curves, "");
   EXPECT_EQ(comparison.curves[2], "");
   EXPECT_EQ(comparison.spheres[0].width, comparison.reference.width);
+  EXPECT_EQ(read_brdf(folder_ / table_->name / "grey.model.json").brdf()->bytes(),
+            std::visit([](const auto& model) { return model->bytes(); }, small_model()));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / table_->name / "none.model.json"));
   const auto sheet = write_model_sheet(comparison, folder_);
   EXPECT_GT(std::filesystem::file_size(sheet), 1000U);
 }
@@ -84,6 +107,39 @@ TEST_F(ModelComparisonTest, NamesADamagedRow) {
   EXPECT_EQ(fits, 0);
 }
 
+TEST_F(ModelComparisonTest, ABatchDoesEachJobOnceFromTheSameInputs) {
+  std::atomic<int> fits = 0;
+  const std::vector<Contender> contenders = {unfit("one", fits), unfit("two", fits)};
+  std::vector<std::string> inputs = {"first", "second"};
+  std::vector<BatchMaterial> materials;
+  for (std::size_t n = 0; n < 2; ++n) {
+    materials.push_back({.name = "material_" + inputs[n],
+                         .inputs = [&inputs, n] { return inputs[n]; },
+                         .load = [this] { return table_; }});
+  }
+  std::vector<std::string> told;
+  BatchOptions options{.progress = [&](const BatchState& state, const std::string& job) {
+    EXPECT_EQ(state.jobs, 4U);
+    told.push_back(job);
+  }};
+  const std::vector<ModelRow> rows = fit_batch(materials, contenders, folder_, options);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[3].error, "too little data");
+  EXPECT_EQ(rows[3].inputs, "second");
+  EXPECT_EQ(std::set<std::string>(told.begin(), told.end()).size(), 4U);
+  EXPECT_EQ(fit_batch(materials, contenders, folder_, options)[2].model, "one");
+  EXPECT_EQ(fits, 4) << "a job that has failed is done";
+  inputs[1] = "changed";
+  EXPECT_EQ(fit_batch(materials, contenders, folder_, options)[3].inputs, "changed");
+  EXPECT_EQ(fits, 6);
+  options.retry_failed = true;
+  (void)fit_batch(materials, contenders, folder_, options);
+  EXPECT_EQ(fits, 10);
+  options.progress = [](const BatchState&, const std::string&) { throw std::runtime_error("enough"); };
+  EXPECT_THROW((void)fit_batch(materials, contenders, folder_, options), std::runtime_error);
+  EXPECT_EQ(fits, 10);
+}
+
 TEST(ReciprocityErrorOfModels, IsTheRelativeDifference) {
   EXPECT_EQ(reciprocity_error(Lambert(Rgb(0.1, 0.5, 0))), 0);
   EXPECT_EQ(reciprocity_error(Lambert(Rgb::Zero())), 0);
@@ -98,6 +154,7 @@ TEST(ModelRowFile, GivesTheRowBack) {
   row.log1p_mae = 0.1 + 0.2;
   row.sphere_psnr_linear_db = HUGE_VAL;
   row.note = "a, b";
+  row.inputs = "a file";
   const ModelRow back = model_row_from_json(to_json(row), "row");
   EXPECT_EQ(to_json(back), to_json(row));
   EXPECT_EQ(back.log1p_mae, 0.1 + 0.2);
