@@ -13,20 +13,9 @@
 namespace sklar::brdf {
 namespace {
 
-std::string material_name(const std::filesystem::path& path) {
-  std::string name = path.stem().string();
-  try {
-    json::require_utf8("the name of the file", name);
-  } catch (const std::invalid_argument& error) {
-    throw FileError(path.string(), error.what());
-  }
-  for (const std::string_view suffix : {"_rgb", "_spec"}) {
-    if (name.size() > suffix.size() && name.ends_with(suffix)) {
-      name.resize(name.size() - suffix.size());
-      break;
-    }
-  }
-  return name;
+FileError unknown_extension(const std::filesystem::path& path) {
+  return {path.string(), "has extension '" + path.extension().string() +
+                             "', expected .binary (MERL), .bsdf (RGL), .brdf (pbrt-v2) or .csv (wi, wo, rgb)"};
 }
 
 /// An RGL file, and whether its material is.
@@ -60,17 +49,38 @@ MeasuredTable read_table(const std::filesystem::path& path, Provenance provenanc
   const std::string extension = path.extension().string();
   if (extension == ".csv") return tabulate_scattered(read_scattered_csv(path), material_name(path), provenance);
   if (extension == ".brdf") return tabulate_scattered(read_pbrt_brdf(path), material_name(path), provenance);
-  if (extension != ".binary") {
-    throw FileError(path.string(),
-                    "has extension '" + extension +
-                        "', expected .binary (MERL), .bsdf (RGL), .brdf (pbrt-v2) or .csv (wi, wo, rgb)");
-  }
+  if (extension != ".binary") throw unknown_extension(path);
   MeasuredTable table = read_merl(path, provenance);
   table.name = material_name(path);
   return table;
 }
 
 }  // namespace
+
+std::string material_name(const std::filesystem::path& path) {
+  std::string name = path.stem().string();
+  try {
+    json::require_utf8("the name of the file", name);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(path.string(), error.what());
+  }
+  for (const std::string_view suffix : {"_rgb", "_spec"}) {
+    if (name.size() > suffix.size() && name.ends_with(suffix)) {
+      name.resize(name.size() - suffix.size());
+      break;
+    }
+  }
+  return name;
+}
+
+void require_material_file(const std::filesystem::path& path) {
+  for (const char* known : {".binary", ".bsdf", ".brdf", ".csv"}) {
+    if (path.extension() != known) continue;
+    if (!std::filesystem::exists(path)) throw FileError(path.string(), "no such file");
+    return;
+  }
+  throw unknown_extension(path);
+}
 
 Material read_material(const std::filesystem::path& path, Provenance provenance) {
   if (!is_rgl(path)) return read_table(path, provenance);

@@ -25,6 +25,7 @@ void protect_formula(std::vector<std::string>& arguments);
 
 void add_families(CLI::App& parent, Common& common);
 void add_brdf_albedo(CLI::App& parent, Common& common);
+void add_brdf_batch(CLI::App& parent, Common& common);
 void add_brdf_compare(CLI::App& parent, Common& common);
 void add_brdf_converge(CLI::App& parent, Common& common);
 void add_brdf_convert(CLI::App& parent, Common& common);

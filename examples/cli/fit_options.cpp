@@ -15,9 +15,18 @@ std::map<std::string, Value> by_text(std::initializer_list<Value> values) {
 
 }  // namespace
 
+void add_provenance(CLI::App& command, brdf::Provenance& provenance) {
+  using brdf::Provenance;
+  command
+      .add_option("--provenance", provenance,
+                  "what the data of a file are that does not say (all but .bsdf), for titles and tables")
+      ->transform(CLI::CheckedTransformer(
+          by_text({Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown})))
+      ->default_str("unknown");
+}
+
 void add_fit_options(CLI::App& command, FitOptions& options, const std::vector<std::string>& modes) {
   using brdf::CellMeasure;
-  using brdf::Provenance;
   using brdf::RefinedObjective;
   options.mode = modes.front();
   command.add_option("--mode", options.mode, "the model")->check(CLI::IsMember(modes))->capture_default_str();
@@ -40,12 +49,7 @@ void add_fit_options(CLI::App& command, FitOptions& options, const std::vector<s
   command.add_option("--measure", options.measure, "what a cell counts: one (cell) or its solid angle")
       ->transform(CLI::CheckedTransformer(by_text({CellMeasure::per_cell, CellMeasure::per_solid_angle})))
       ->default_str("cell");
-  command
-      .add_option("--provenance", options.provenance,
-                  "what the data of a file are that does not say (all but .bsdf), for titles and tables")
-      ->transform(CLI::CheckedTransformer(
-          by_text({Provenance::measured, Provenance::reconstruction, Provenance::synthetic, Provenance::unknown})))
-      ->default_str("unknown");
+  add_provenance(command, options.provenance);
 }
 
 void settle_fit_options(const CLI::App& command, FitOptions& options) {

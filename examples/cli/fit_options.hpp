@@ -26,8 +26,10 @@ struct FitOptions {
   [[nodiscard]] bool is_refined() const { return mode != "paper"; }
 };
 
-/// Adds --mode, the options of either mode, --measure, --max-bytes and --provenance (of MERL-format files, which do not
-/// say).
+/// Adds --provenance, of MERL-format files, which do not say.
+void add_provenance(CLI::App& command, brdf::Provenance& provenance);
+
+/// Adds --mode, the options of either mode, --measure, --max-bytes and --provenance.
 /// @param modes the first is that by default
 void add_fit_options(CLI::App& command, FitOptions& options, const std::vector<std::string>& modes);
 

@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   add_copula_derive(*copula, common);
   CLI::App* brdf = app.add_subcommand("brdf", "work on a material")->require_subcommand(1);
   add_brdf_albedo(*brdf, common);
+  add_brdf_batch(*brdf, common);
   add_brdf_compare(*brdf, common);
   add_brdf_converge(*brdf, common);
   add_brdf_convert(*brdf, common);

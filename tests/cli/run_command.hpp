@@ -30,7 +30,7 @@ class CommandTest : public test::TemporaryFolder {
   void write(const std::string& name, std::string_view text) const;
   [[nodiscard]] std::string read(const std::string& name) const;
 
- private:
+  /// The folder.
   [[nodiscard]] std::filesystem::path work() const { return folder_ / "work"; }
 };
 
