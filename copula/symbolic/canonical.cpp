@@ -10,6 +10,15 @@ namespace sklar::symbolic {
 
 namespace {
 
+constexpr unsigned kMostBits = 1 << 15;  // of a numerator or denominator; time and room grow with their square
+
+/// @throws std::domain_error for a number too long to calculate with.
+void require_short(const Rational& value) {
+  const Integer either = abs(numerator(value)) | denominator(value);
+  if (msb(either) < kMostBits) return;
+  throw std::domain_error("a number of more than " + std::to_string(kMostBits) + " bits");
+}
+
 Expression with_coefficient(const Rational& coefficient, const Expression& rest) {
   if (coefficient == 1) return rest;
   std::vector<Expression> args{number(coefficient)};
@@ -26,7 +35,9 @@ class Terms {
       return;
     }
     const Scaled term = split_coefficient(e);
-    coefficients_[term.rest] += factor * term.coefficient;
+    Rational& coefficient = coefficients_[term.rest];
+    coefficient += factor * term.coefficient;
+    require_short(coefficient);
   }
 
   [[nodiscard]] Expression to_expression() const {
@@ -55,12 +66,12 @@ class Factors {
  public:
   void add(const Expression& e) {
     if (e.is_number()) {
-      coefficient_ *= value_of(e);
+      scale(value_of(e));
     } else if (e.kind() == Kind::product) {
       for (const Expression& factor : e.args()) add_factor(factor);
     } else if (e.kind() == Kind::sum) {
       const Scaled primitive = split_content(e, true);
-      coefficient_ *= primitive.coefficient;
+      scale(primitive.coefficient);
       add_factor(primitive.rest);
     } else {
       add_factor(e);
@@ -90,10 +101,15 @@ class Factors {
     std::vector<Expression> exponents;  // to be added up
   };
 
+  void scale(const Rational& factor) {
+    coefficient_ *= factor;
+    require_short(coefficient_);
+  }
+
   // A factor of a canonical product: no product, and a sum only with content 1.
   void add_factor(const Expression& e) {
     if (e.is_number()) {
-      coefficient_ *= value_of(e);
+      scale(value_of(e));
     } else if (e.is(Function::exp)) {
       exp_terms_.push_back(e.args()[0]);
     } else {
@@ -137,7 +153,7 @@ class Factors {
   std::vector<Expression> exp_terms_;
 };
 
-constexpr long kExactBits = 1 << 16;  // a power of a number with more bits is left as it is
+constexpr long kExactBits = 1 << 14;  // a power of a number with more bits is left as it is
 
 /// The root of a non-negative integer, or -1 if it is not an integer.
 Integer exact_root(const Integer& n, const Integer& order) {

@@ -61,7 +61,8 @@ struct ExpressionHash {
 /// Numerator / denominator, exactly. @throws std::domain_error for a zero denominator.
 [[nodiscard]] Expression rational(long numerator, long denominator);
 
-/// Sum and product of any number of expressions, in canonical form.
+/// Sum and product of any number of expressions, in canonical form. @throws std::domain_error for a number of more
+/// than 2^15 bits.
 [[nodiscard]] Expression sum(const std::vector<Expression>& terms);
 [[nodiscard]] Expression product(const std::vector<Expression>& factors);
 

@@ -116,7 +116,8 @@ class Parser {
     if (!take(c)) fail(position_, "'" + std::string(1, c) + "' was expected" + why + ", got " + found());
   }
 
-  /// Runs a constructor; what it refuses (division by zero) is an error at this place of the text.
+  /// Runs a constructor; what it refuses (division by zero, a number of too many digits) is an error at this place of
+  /// the text.
   template <class Make>
   Expression checked(std::size_t place, Make make) const {
     try {
@@ -130,6 +131,7 @@ class Parser {
 
   Expression parse_sum() {
     if (++depth_ > kMaxDepth) fail(position_, "nested too deeply");
+    const std::size_t place = position_;
     std::vector<Expression> terms{parse_product()};
     for (;;) {
       if (take('+')) {
@@ -141,15 +143,17 @@ class Parser {
       }
     }
     --depth_;
-    return sum(terms);
+    return checked(place, [&] { return sum(terms); });
   }
 
   Expression parse_product() {
     Expression value = parse_unary();
     for (;;) {
+      const std::size_t place = position_;
       if (take('*')) {
-        value = value * parse_unary();
-      } else if (const std::size_t place = position_; take('/')) {
+        const Expression factor = parse_unary();
+        value = checked(place, [&] { return value * factor; });
+      } else if (take('/')) {
         const Expression divisor = parse_unary();
         value = checked(place, [&] { return value / divisor; });
       } else {

@@ -14,12 +14,14 @@
 #include "copula/symbolic/evaluate.hpp"
 #include "copula/symbolic/parser.hpp"
 #include "copula/symbolic/print.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/symbolic_generators.hpp"
 
 namespace sklar::symbolic {
 namespace {
 
+using sklar::test::message_of;
 using test::generators;
 using test::random_expression;
 
@@ -129,6 +131,20 @@ TEST(SymbolicParser, PutsACaretUnderThePlace) {
   } catch (const ParseError& error) {
     EXPECT_STREQ(error.what(), "',' or ')' was expected, got the end at position 12\n    log(t\n         ^");
   }
+}
+
+TEST(SymbolicParser, RefusesNumbersTooLongToCalculateWith) {
+  const auto repeated = [](const std::string& part) {
+    std::string text = "1";
+    for (int n = 0; n < 50; ++n) text += part;
+    return text;
+  };
+  for (const std::string& text : {repeated("*3^8000"), repeated("+1/7^5000+1/11^4000+1/13^4000")}) {
+    EXPECT_NE(message_of<ParseError>([&] { (void)parse(text); }).find("a number of more than 32768 bits"),
+              std::string::npos)
+        << text;
+  }
+  EXPECT_EQ(parse(repeated("+3^-40000")), parse("1 + 50/3^40000"));
 }
 
 TEST(SymbolicParser, LeavesHugePowersAlone) {
