@@ -10,7 +10,7 @@ need_packages $build_packages
 preset=${1:-release}
 case $preset in release) build=build ;; *) build=build-$preset ;; esac
 # Fewer random draws where each costs ten times as much.
-[ "$preset" != asan ] || export SKLAR_DRAWS="${SKLAR_DRAWS:-10000}"
+case $preset in asan | tsan) export SKLAR_DRAWS="${SKLAR_DRAWS:-10000}" ;; esac
 if [ -n "${SKLAR_TEST_DATA:-}" ]; then
   SKLAR_TEST_DATA=$(cd "$SKLAR_TEST_DATA" && pwd)
   export SKLAR_TEST_DATA
