@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "copula/error.hpp"
@@ -100,27 +101,45 @@ double HistogramMarginal::log_pdf(double x) const {
   return log_density_[bin(x)];
 }
 
-EmpiricalMarginal::EmpiricalMarginal(const ColumnRef& data) : sorted_(data.begin(), data.end()) {
+EmpiricalMarginal::EmpiricalMarginal(const ColumnRef& data, const ColumnRef& weights) {
   require_enough_rows("empirical margin", "data", data.rows(), 1);
   require_finite("empirical margin", "data", data);
-  std::sort(sorted_.begin(), sorted_.end());
+  require_weights("empirical margin", weights, data.rows());
+  std::vector<Index> order(static_cast<std::size_t>(data.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return data[a] < data[b]; });
+  cumulative_.push_back(0);
+  for (const Index i : order) {
+    sorted_.push_back(data[i]);
+    if (weights.size() > 0) weights_.push_back(weights[i]);
+    cumulative_.push_back(cumulative_.back() + (weights.size() > 0 ? weights[i] : 1.0));
+  }
+}
+
+EmpiricalMarginal::Ranks EmpiricalMarginal::ranks(double x) const {
+  const auto [first, last] = std::equal_range(sorted_.begin(), sorted_.end(), x);
+  const double below = cumulative_[static_cast<std::size_t>(first - sorted_.begin())];
+  return {below, cumulative_[static_cast<std::size_t>(last - sorted_.begin())] - below, first != last};
 }
 
 double EmpiricalMarginal::cdf(double x) const {
   if (std::isnan(x)) return x;
-  const auto [first, last] = std::equal_range(sorted_.begin(), sorted_.end(), x);
-  const auto below = static_cast<double>(first - sorted_.begin());
-  const auto tied = static_cast<double>(last - first);
-  const double rank = tied > 0 ? 0.5 * (below + 1 + (below + tied)) : below;
-  return rank / static_cast<double>(sorted_.size() + 1);
+  const Ranks at = ranks(x);
+  return (at.at_value ? at.below + 0.5 * (at.tied + 1) : at.below) / (total() + 1);
+}
+
+double EmpiricalMarginal::pseudo_observation(double x) const {
+  if (std::isnan(x)) return x;
+  const Ranks at = ranks(x);
+  return (at.below + 0.5 * (at.tied + 1)) / (total() + 1);
 }
 
 double EmpiricalMarginal::quantile(double p) const {
   if (std::isnan(p)) return p;
   assert(p >= 0 && p <= 1);
-  const auto n = static_cast<double>(sorted_.size());
-  const double rank = std::clamp(std::ceil(p * (n + 1)), 1.0, n);
-  return sorted_[static_cast<std::size_t>(rank) - 1];
+  const double rank = std::clamp(p * (total() + 1), std::numeric_limits<double>::min(), total());
+  const auto reached = std::lower_bound(cumulative_.begin() + 1, cumulative_.end(), rank);
+  return sorted_[static_cast<std::size_t>(reached - cumulative_.begin()) - 1];
 }
 
 }  // namespace sklar

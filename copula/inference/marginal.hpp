@@ -59,23 +59,40 @@ class HistogramMarginal final : public DensityMarginal {
   std::vector<double> log_density_;  ///< m, from the masses: a difference of the cdf would lose small ones
 };
 
-/// The distribution of n data values: cdf = rank / (n+1), so that it is inside (0,1) at the data and agrees with
-/// pseudo_observations there; constant between two values, n/(n+1) from the largest one on. It has no density.
+/// The distribution of n data values of frequencies w_i, N = sum w_i: cdf = rank / (N+1), so that it is inside (0,1) at
+/// the data and agrees with pseudo_observations there; constant between two values, N/(N+1) from the largest one on. It
+/// has no density.
 class EmpiricalMarginal final : public Marginal {
  public:
-  /// @param data n >= 1 finite values in any order.
-  /// @throws std::invalid_argument for none, std::domain_error naming the first that is not finite.
-  explicit EmpiricalMarginal(const ColumnRef& data);
+  /// @param data n >= 1 finite values in any order. @param weights n frequencies >= 0, or none for one each.
+  /// @throws std::invalid_argument (no values, shapes, all weights zero), std::domain_error naming the first value that
+  /// is not finite or weight out of range.
+  explicit EmpiricalMarginal(const ColumnRef& data, const ColumnRef& weights = Column());
 
   using Marginal::cdf;
   using Marginal::quantile;
   [[nodiscard]] double cdf(double x) const override;       ///< at tied data: their mean rank
-  [[nodiscard]] double quantile(double p) const override;  ///< the data value of rank ceil(p (n+1)), at most n
+  [[nodiscard]] double quantile(double p) const override;  ///< the data value of rank ceil(p (N+1)), at most N
+
+  /// The pseudo-observation of a value that need not be among the data, strictly inside (0,1): at data cdf(x),
+  /// elsewhere the middle between the values of the cdf at both sides, (N_below + 1/2) / (N+1).
+  [[nodiscard]] double pseudo_observation(double x) const;
 
   [[nodiscard]] const std::vector<double>& sorted() const noexcept { return sorted_; }
+  [[nodiscard]] const std::vector<double>& weights() const noexcept { return weights_; }  ///< of sorted(), none: 1 each
 
  private:
+  struct Ranks {
+    double below;   ///< sum of the weights of smaller values
+    double tied;    ///< of equal ones
+    bool at_value;  ///< whether there are equal ones
+  };
+  [[nodiscard]] Ranks ranks(double x) const;
+  [[nodiscard]] double total() const { return cumulative_.back(); }
+
   std::vector<double> sorted_;
+  std::vector<double> weights_;
+  std::vector<double> cumulative_;  ///< n+1 sums of the weights, from 0 to N
 };
 
 }  // namespace sklar

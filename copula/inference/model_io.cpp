@@ -1,5 +1,7 @@
 #include "copula/inference/model_io.hpp"
 
+#include <algorithm>
+
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
@@ -32,20 +34,59 @@ Json to_json_value(const HistogramMarginal& margin) {
   return {{"kind", "histogram"}, {"edges", margin.edges()}, {"masses", margin.masses()}};
 }
 
+/// Adds the weights of data, if any.
+Json with_weights(Json json, const std::vector<double>& weights) {
+  if (!weights.empty()) json["weights"] = weights;
+  return json;
+}
+
 Json to_json_value(const EmpiricalMarginal& margin) {
-  return {{"kind", "empirical"}, {"values", margin.sorted()}};
+  return with_weights({{"kind", "empirical"}, {"values", margin.sorted()}}, margin.weights());
+}
+
+Json to_json_value(const KernelMarginal& margin) {
+  return with_weights({{"kind", "kernel"}, {"values", margin.values()}, {"bandwidth", margin.bandwidth()}},
+                      margin.weights());
+}
+
+Json to_json_value(const NormalMarginal& margin) {
+  const auto [mean, sd] = margin.parameters();
+  return {{"kind", "normal"}, {"mean", mean}, {"sd", sd}};
+}
+
+Json to_json_value(const GammaMarginal& margin) {
+  const auto [shape, scale] = margin.parameters();
+  return {{"kind", "gamma"}, {"shape", shape}, {"scale", scale}};
+}
+
+Json to_json_value(const BetaMarginal& margin) {
+  const auto [a, b] = margin.parameters();
+  const auto [lowest, highest] = margin.support();
+  return {{"kind", "beta"}, {"a", a}, {"b", b}, {"lowest", lowest}, {"highest", highest}};
+}
+
+Column column_of(const Json& object, const char* name) {
+  const std::vector<double> values = json::numbers(object, name);
+  return Eigen::Map<const Column>(values.data(), static_cast<Index>(values.size()));
+}
+
+Column weights_of(const Json& object) {
+  return object.contains("weights") ? column_of(object, "weights") : Column();
 }
 
 StoredMarginal margin_from(const Json& object) {
   const auto kind = json::text(object, "kind");
+  const auto number = [&](const char* name) { return json::number(object, name); };
   if (kind == "histogram") {
     return HistogramMarginal(json::numbers(object, "edges"), json::numbers(object, "masses"));
   }
-  if (kind == "empirical") {
-    const auto values = json::numbers(object, "values");
-    return EmpiricalMarginal(Eigen::Map<const Column>(values.data(), static_cast<Index>(values.size())));
-  }
-  throw std::invalid_argument("unknown kind '" + kind + "'; known kinds: histogram, empirical");
+  if (kind == "empirical") return EmpiricalMarginal(column_of(object, "values"), weights_of(object));
+  if (kind == "kernel") return KernelMarginal(column_of(object, "values"), number("bandwidth"), weights_of(object));
+  if (kind == "normal") return NormalMarginal(number("mean"), number("sd"));
+  if (kind == "gamma") return GammaMarginal(number("shape"), number("scale"));
+  if (kind == "beta") return BetaMarginal(number("a"), number("b"), number("lowest"), number("highest"));
+  throw std::invalid_argument("unknown kind '" + kind +
+                              "'; known kinds: histogram, empirical, kernel, normal, gamma, beta");
 }
 
 void require_margins(const CopulaModel& model) {
@@ -146,6 +187,16 @@ bool needs_version_2(const CopulaModel& model) {
          (!only.definition.empty() && !Json::parse(only.definition).contains("psi"));
 }
 
+bool needs_version_3(const StoredMarginal& margin) {
+  if (const auto* ranks = std::get_if<EmpiricalMarginal>(&margin)) return !ranks->weights().empty();
+  return !std::holds_alternative<HistogramMarginal>(margin);
+}
+
+int version_of(const CopulaModel& model) {
+  if (std::any_of(model.margins.begin(), model.margins.end(), needs_version_3)) return 3;
+  return needs_version_2(model) ? 2 : 1;
+}
+
 std::string title_of(const CopulaModel& model) {
   if (model.components.size() == 1) return model.components.front().family + " with its parameters";
   std::string names;
@@ -196,7 +247,7 @@ FamilyInfo family_from(const Json& json, std::string_view source, std::span<cons
 }  // namespace
 
 std::string to_json(const CopulaModel& model) {
-  Json json = {{"format", kFormat}, {"version", needs_version_2(model) ? 2 : 1}};
+  Json json = {{"format", kFormat}, {"version", version_of(model)}};
   if (!model.name.empty()) json["name"] = model.name;
   if (model.components.size() == 1) {
     const ModelComponent& only = model.components.front();
@@ -236,13 +287,7 @@ FamilyInfo family_from_json(std::string_view json, std::string_view source, std:
 
 JointDistribution make_joint(const CopulaModel& model, std::span<const FamilyInfo> families) {
   std::vector<std::shared_ptr<const Marginal>> margins;
-  for (const StoredMarginal& margin : model.margins) {
-    margins.push_back(std::visit(
-        [](const auto& value) -> std::shared_ptr<const Marginal> {
-          return std::make_shared<std::decay_t<decltype(value)>>(value);
-        },
-        margin));
-  }
+  for (const StoredMarginal& margin : model.margins) margins.push_back(share(margin));
   return {std::move(margins), make_copula(model, families)};
 }
 

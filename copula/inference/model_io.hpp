@@ -6,16 +6,13 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "copula/family.hpp"
 #include "copula/inference/joint.hpp"
+#include "copula/inference/margin_fit.hpp"
 
 namespace sklar {
-
-/// A margin that can be stored.
-using StoredMarginal = std::variant<HistogramMarginal, EmpiricalMarginal>;
 
 /// A copula of one family, with its weight.
 struct ModelComponent {
@@ -34,14 +31,16 @@ struct CopulaModel {
 };
 
 /// The newest version written and read.
-inline constexpr int kModelVersion = 2;
+inline constexpr int kModelVersion = 3;
 
 /// One family: {"format": "sklar copula", "version": 1, "family": .., "dim": .., "theta": [..], "margins": [..]} with
 /// margins {"kind": "histogram", "edges": [..], "masses": [..]} and {"kind": "empirical", "values": [..]}, ended by a
 /// newline. "family" is a name, or the whole definition of a family that is not registered, so that the model stands
 /// alone. Version 2, written for what version 1 lacks: rotated families, by name or {"rotation": "180", "family":
 /// definition}; a "name" of the model; and for a mixture, in place of family and theta,
-/// "components": [{"weight": .., "family": .., "theta": [..]}, ..].
+/// "components": [{"weight": .., "family": .., "theta": [..]}, ..]. Version 3: margins {"kind": "normal", "mean": ..,
+/// "sd": ..}, {"kind": "gamma", "shape": .., "scale": ..}, {"kind": "beta", "a": .., "b": .., "lowest": .., "highest":
+/// ..} and {"kind": "kernel", "values": [..], "bandwidth": ..}, and "weights": [..] of empirical and kernel margins.
 [[nodiscard]] std::string to_json(const CopulaModel& model);
 
 /// @param source   names the text in errors. @param families those the model may use, also rotated.

@@ -64,6 +64,29 @@ TEST(ModelIo, WritesTheOldestVersionThatHoldsTheModel) {
   }
 }
 
+TEST(ModelIo, KeepsMarginsOfEveryKind) {
+  const std::vector<std::pair<StoredMarginal, std::string>> cases = {
+      {NormalMarginal(-1, 0.1), R"({"kind":"normal","mean":-1.0,"sd":0.1})"},
+      {GammaMarginal(0.3, 2), R"({"kind":"gamma","shape":0.3,"scale":2.0})"},
+      {BetaMarginal(1, 2, -3, 4), R"({"kind":"beta","a":1.0,"b":2.0,"lowest":-3.0,"highest":4.0})"},
+      {KernelMarginal(Column{{3, 1}}, 0.1), R"({"kind":"kernel","values":[3.0,1.0],"bandwidth":0.1})"},
+      {KernelMarginal(Column{{3, 1}}, 0.1, Column{{1, 2}}),
+       R"({"kind":"kernel","values":[3.0,1.0],"bandwidth":0.1,"weights":[1.0,2.0]})"},
+      {EmpiricalMarginal(Column{{3, 1}}, Column{{0.5, 2}}),
+       R"({"kind":"empirical","values":[1.0,3.0],"weights":[2.0,0.5]})"}};
+  for (const auto& [margin, text] : cases) {
+    const std::string json = to_json({.dim = 2,
+                                      .components = {{.family = "clayton", .theta = {2}}},
+                                      .margins = {HistogramMarginal({0, 1}, {1}), margin}});
+    EXPECT_EQ(json, R"({"format":"sklar copula","version":3,"family":"clayton","dim":2,"theta":[2.0],"margins":[)"
+                    R"({"kind":"histogram","edges":[0.0,1.0],"masses":[1.0]},)" +
+                        text + "]}\n");
+    const CopulaModel back = parse_model(json, "model.json", families::all());
+    EXPECT_EQ(to_json(back), json);
+    EXPECT_GT(make_joint(back, families::all()).cdf(Points{{0.5, 2.0}})(0), 0);
+  }
+}
+
 TEST(ModelIo, AMixtureIsThatOfItsComponents) {
   const CopulaPtr read = make_copula(parse_model(kMixture, "model.json", families::all()), families::all());
   const Mixture made({families::find("clayton@90").make(2, {2}), families::find("frank").make(2, {1.5})}, {0.25, 0.75});
@@ -120,8 +143,8 @@ TEST(ModelIo, NamesWhatIsWrong) {
   EXPECT_EQ(failure(""), "model.json: is not valid JSON: byte 1");
   EXPECT_EQ(failure(head), "model.json: is not valid JSON: byte " + std::to_string(head.size() + 1));
   EXPECT_EQ(failure("{}"), R"(model.json: expected "format": "sklar copula")");
-  EXPECT_EQ(failure(R"({"format":"sklar copula","version":3})"),
-            "model.json: has version 3; this program reads versions 1 to 2");
+  EXPECT_EQ(failure(R"({"format":"sklar copula","version":4})"),
+            "model.json: has version 4; this program reads versions 1 to 3");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":"1"})"),
             "model.json: field 'version' must be a whole number in 0 to 1000000, found \"1\"");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":1})"), "model.json: field 'dim' is missing");
@@ -134,8 +157,9 @@ TEST(ModelIo, NamesWhatIsWrong) {
             "model.json: " + name + ": dimension must be 2 or more, got 1");
   EXPECT_EQ(failure(head + R"("dim":2,"theta":[],"margins":[{"kind":"empirical","values":[1]}]})"),
             "model.json: needs 2 margins or none, got 1");
-  EXPECT_EQ(failure(head + R"("dim":2,"theta":[],"margins":[{"kind":"spline"}]})"),
-            "model.json: margins[0]: unknown kind 'spline'; known kinds: histogram, empirical");
+  EXPECT_EQ(
+      failure(head + R"("dim":2,"theta":[],"margins":[{"kind":"spline"}]})"),
+      "model.json: margins[0]: unknown kind 'spline'; known kinds: histogram, empirical, kernel, normal, gamma, beta");
   EXPECT_EQ(failure(head + R"("dim":2,"theta":[],"margins":[{"kind":"histogram","edges":[0,1],"masses":[-1]}]})"),
             "model.json: margins[0]: histogram: masses must be finite and 0 or more, got masses(0) = -1");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":1,"family":"x","dim":2,"theta":[],"margins":[]})"),
