@@ -8,6 +8,7 @@
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/fitter.hpp"
 #include "copula/inference/score.hpp"
+#include "copula/inference/spearman.hpp"
 
 namespace sklar {
 namespace {
@@ -107,6 +108,8 @@ std::string_view to_text(FitMethod method) {
       return "ls";
     case FitMethod::tau_inversion:
       return "tau";
+    case FitMethod::rho_inversion:
+      return "rho";
   }
   return "";
 }
@@ -180,6 +183,29 @@ FitResult fit_tau_inversion(const FamilyInfo& family, const PointsRef& u, const 
   return result;
 }
 
+FitResult fit_rho_inversion(const FamilyInfo& family, const PointsRef& u, const ColumnRef& weights,
+                            const FitOptions& options) {
+  require_sample("fit_rho_inversion", u, weights);
+  const int dim = static_cast<int>(u.cols());
+  Fitter fitter(family, FitMethod::rho_inversion, dim, options);
+  const double rho = mean_spearman_rho(u, weights);
+  FitResult& result = fitter.result();
+  if (std::isnan(rho)) {
+    result.message = "Spearman's rho of the data is not defined: a column is constant";
+    return result;
+  }
+  try {
+    fitter.set_theta(family.parameters.empty() ? Theta{} : theta_from_rho(family, dim, rho));
+  } catch (const std::domain_error& error) {
+    result.message = error.what();
+    return result;
+  }
+  result.status = FitStatus::converged;
+  result.objective = std::abs(spearman_rho(*family.make(2, result.theta)) - rho);
+  fitter.add_likelihood(u, weights);
+  return result;
+}
+
 FitResult fit_least_squares(const FamilyInfo& family, const CellTable& cells, const FitOptions& options) {
   require_cells(cells);
   Fitter fitter(family, FitMethod::least_squares, static_cast<int>(cells.u.cols()), options);
@@ -198,6 +224,7 @@ FitResult fit(const FamilyInfo& family, FitMethod method, const PointsRef& u, co
               const FitOptions& options) {
   if (method == FitMethod::maximum_likelihood) return fit_maximum_likelihood(family, u, weights, options);
   if (method == FitMethod::tau_inversion) return fit_tau_inversion(family, u, weights, options);
+  if (method == FitMethod::rho_inversion) return fit_rho_inversion(family, u, weights, options);
   require_sample("fit_least_squares", u, weights);
   const FitResult by_cells = fit_least_squares(family, count_cells(u, weights, options.bins), options);
   Fitter fitter(family, FitMethod::least_squares, static_cast<int>(u.cols()), options);

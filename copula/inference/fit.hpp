@@ -1,7 +1,7 @@
 #pragma once
 /// Fitting the parameters of a family: weighted maximum likelihood (paper Eq. 16), weighted least squares on cell
-/// masses (paper Eq. 17), inversion of Kendall's tau. The margins come first (pseudo_observations, EmpiricalMarginal,
-/// cell_table), the dependence parameters second.
+/// masses (paper Eq. 17), inversion of Kendall's tau or Spearman's rho. The margins come first (pseudo_observations,
+/// EmpiricalMarginal, cell_table), the dependence parameters second.
 
 #include <limits>
 #include <string>
@@ -13,8 +13,8 @@
 
 namespace sklar {
 
-/// See fit_maximum_likelihood, fit_least_squares and fit_tau_inversion.
-enum class FitMethod { maximum_likelihood, least_squares, tau_inversion };
+/// See the functions fit_maximum_likelihood, fit_least_squares, ..
+enum class FitMethod { maximum_likelihood, least_squares, tau_inversion, rho_inversion };
 
 /// How a search ended.
 enum class FitStatus {
@@ -24,7 +24,7 @@ enum class FitStatus {
   failed            ///< no parameter tried gives every row a finite density; message says why
 };
 
-[[nodiscard]] std::string_view to_text(FitMethod method);  ///< "ml", "ls", "tau"
+[[nodiscard]] std::string_view to_text(FitMethod method);  ///< "ml", "ls", "tau", "rho"
 [[nodiscard]] std::string_view to_text(FitStatus status);  ///< "converged", "at_bound", ...
 
 /// How long and how to search.
@@ -44,12 +44,13 @@ struct FitResult {
 
   std::string family;  ///< FamilyInfo::name
   FitMethod method = FitMethod::maximum_likelihood;
-  Theta theta = {};               ///< the best seen, admissible in the dimension of the data
-  double tau = kNone;             ///< FamilyInfo::tau at theta
-  double objective = kNone;       ///< what was minimised: -log_likelihood, the sum of squares, |tau - tau of data|
-  double log_likelihood = kNone;  ///< sum w_i log c(u_i; theta); -inf if nonfinite > 0
-  double aic = kNone;             ///< 2k - 2 log_likelihood
-  double bic = kNone;             ///< k log(sum w_i) - 2 log_likelihood
+  Theta theta = {};    ///< the best seen, admissible in the dimension of the data
+  double tau = kNone;  ///< FamilyInfo::tau at theta
+  double objective =
+      kNone;  ///< what was minimised: -log_likelihood, the sum of squares, |tau - tau of data|, the same of rho
+  double log_likelihood = kNone;            ///< sum w_i log c(u_i; theta); -inf if nonfinite > 0
+  double aic = kNone;                       ///< 2k - 2 log_likelihood
+  double bic = kNone;                       ///< k log(sum w_i) - 2 log_likelihood
   std::vector<double> standard_error = {};  ///< one a parameter, from the observed information; see standard_errors
   FitStatus status = FitStatus::failed;
   int evaluations = 0;       ///< of the objective over all rows
@@ -70,6 +71,12 @@ struct FitResult {
 /// range gives the nearest end and status at_bound. A family without parameters has nothing to invert and converges.
 /// @throws as fit_maximum_likelihood; std::invalid_argument also for a family without theta_from_tau.
 [[nodiscard]] FitResult fit_tau_inversion(const FamilyInfo& family, const PointsRef& u,
+                                          const ColumnRef& weights = Column(), const FitOptions& options = {});
+
+/// theta with the (weighted) Spearman's rho of the data, the mean over pairs for d > 2, by theta_from_rho: about 1e6
+/// values of the copula's cdf. A rho outside the attainable range is a failed result that names its end.
+/// @throws as fit_maximum_likelihood; std::invalid_argument also for a family of several parameters.
+[[nodiscard]] FitResult fit_rho_inversion(const FamilyInfo& family, const PointsRef& u,
                                           const ColumnRef& weights = Column(), const FitOptions& options = {});
 
 /// Minimises sum w_i (b_i - c(u_i; theta) g_i)^2 over cells (paper Eq. 17). The sum may have several minima: a lattice

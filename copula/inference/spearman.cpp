@@ -85,9 +85,11 @@ Theta invert(const FamilyInfo& family, int dim, const char* what, double value,
   for (; at_low > 0 && low > lowest; at_low = miss(low)) low = std::max(low - 1, lowest);
   for (; at_high < 0 && high < highest; at_high = miss(high)) high = std::min(high + 1, highest);
   if (!(at_low <= 0 && at_high >= 0)) {
-    throw std::domain_error(family.name + ": " + what + " must be in " +
-                            Interval{at_low + value, at_high + value}.to_text() + " in dimension " +
-                            std::to_string(dim) + ", got " + to_text(value));
+    const bool below = at_low > 0;
+    // The measure has an absolute error of 1e-10.
+    const double end = 0 + std::round(1e9 * (value + (below ? at_low : at_high))) / 1e9;
+    throw std::domain_error(family.name + ": " + what + " must be " + to_text(end) + (below ? " or more" : " or less") +
+                            " in dimension " + std::to_string(dim) + ", got " + to_text(value));
   }
   if (at_low == 0 || at_high == 0) return scale.theta({at_low == 0 ? low : high});
   std::uintmax_t most_steps = 100;

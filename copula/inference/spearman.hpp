@@ -11,8 +11,8 @@ namespace sklar {
 [[nodiscard]] double spearman_rho(const Copula& copula);
 
 /// The parameter whose pairs have this rho, the only one as families are ordered by concordance.
-/// @throws std::invalid_argument for a family of more or fewer than one parameter, std::domain_error with the
-/// attainable range for rho outside it, and for a family whose pairs differ.
+/// @throws std::invalid_argument for a family of more or fewer than one parameter, std::domain_error naming
+/// the attainable end for rho beyond it, and for a family whose pairs differ.
 [[nodiscard]] Theta theta_from_rho(const FamilyInfo& family, int dim, double rho);
 
 /// The same for the lower or upper tail dependence coefficient. @throws as theta_from_rho.

@@ -7,6 +7,7 @@
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/objective.hpp"
 #include "copula/inference/select.hpp"
+#include "copula/inference/spearman.hpp"
 #include "copula/rotated_family.hpp"
 #include "tests/support/family_cases.hpp"
 
@@ -240,11 +241,27 @@ TEST(Fit, RotationsOfChosenCoordinatesAreFoundWithoutTau) {
   EXPECT_THROW((void)fit_maximum_likelihood(pairs, u), std::domain_error);
 }
 
+TEST(RhoInversion, HasTheRhoOfTheDataOrSaysTheRange) {
+  Rng rng(9);
+  const Points u = families::find("frank").make(3, {3.0})->sample(400, rng);
+  const FitResult found = fit(families::find("gumbel"), FitMethod::rho_inversion, u);
+  EXPECT_EQ(found.status, FitStatus::converged);
+  EXPECT_NEAR(spearman_rho(*families::find("gumbel").make(2, found.theta)), mean_spearman_rho(u), 1e-9);
+  EXPECT_TRUE(std::isfinite(found.log_likelihood));
+  Points negative = u.leftCols(2);
+  negative.col(1) = 1 - negative.col(1);
+  const FitResult none = fit(families::find("gumbel"), FitMethod::rho_inversion, negative);
+  EXPECT_EQ(none.status, FitStatus::failed);
+  EXPECT_NE(none.message.find("gumbel: rho must be 0 or more in dimension 2, got -0.4"), std::string::npos)
+      << none.message;
+}
+
 TEST(Fit, NoParametersNeedNoSearch) {
   for (const FamilyInfo& family : families::all()) {
     if (!family.parameters.empty()) continue;
     const Points u = uniforms(*std::make_unique<Rng>(1), 100, 3);
-    for (const FitMethod method : {FitMethod::maximum_likelihood, FitMethod::least_squares, FitMethod::tau_inversion}) {
+    for (const FitMethod method : {FitMethod::maximum_likelihood, FitMethod::least_squares, FitMethod::tau_inversion,
+                                   FitMethod::rho_inversion}) {
       const FitResult result = fit(family, method, u);
       EXPECT_EQ(result.status, FitStatus::converged);
       EXPECT_EQ(result.theta, Theta{});
