@@ -30,6 +30,15 @@ Index segment_length(const ColumnRef& weights, Index count) {
   return weights.size() > 0 ? count : 0;
 }
 
+template <class Distribution>
+RowSum sum_of_log_densities(const Distribution& distribution, const PointsRef& x, const ColumnRef& weights,
+                            const Chunking& chunking) {
+  return sum_over_chunks(x.rows(), chunking, RowSum(), [&](Index first, Index count) {
+    const Column term = distribution.log_pdf(x.middleRows(first, count));
+    return weighted_sum(term, weights.segment(weights.size() > 0 ? first : 0, segment_length(weights, count)));
+  });
+}
+
 }  // namespace
 
 RowSum& RowSum::operator+=(const RowSum& other) {
@@ -40,10 +49,12 @@ RowSum& RowSum::operator+=(const RowSum& other) {
 }
 
 RowSum log_likelihood(const Copula& copula, const PointsRef& u, const ColumnRef& weights, const Chunking& chunking) {
-  return sum_over_chunks(u.rows(), chunking, RowSum(), [&](Index first, Index count) {
-    const Column term = copula.log_pdf(u.middleRows(first, count));
-    return weighted_sum(term, weights.segment(weights.size() > 0 ? first : 0, segment_length(weights, count)));
-  });
+  return sum_of_log_densities(copula, u, weights, chunking);
+}
+
+RowSum log_likelihood(const JointDensity& joint, const PointsRef& x, const ColumnRef& weights,
+                      const Chunking& chunking) {
+  return sum_of_log_densities(joint, x, weights, chunking);
 }
 
 RowSum squared_error(const Copula& copula, const CellTable& cells, const Chunking& chunking) {

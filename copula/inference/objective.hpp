@@ -6,6 +6,7 @@
 
 #include "copula/copula.hpp"
 #include "copula/inference/cells.hpp"
+#include "copula/inference/joint.hpp"
 
 namespace sklar {
 
@@ -32,6 +33,10 @@ struct RowSum {
 /// sum w_i log c(u_i), the copula part of the log likelihood (paper Eq. 16). Rows of weight 0 do not count.
 /// @param u n x d. @param weights n, or none for one each.
 [[nodiscard]] RowSum log_likelihood(const Copula& copula, const PointsRef& u, const ColumnRef& weights,
+                                    const Chunking& chunking);
+
+/// The same of margins and copula together, the sum of w_i log h(x_i). @param x n x d.
+[[nodiscard]] RowSum log_likelihood(const JointDensity& joint, const PointsRef& x, const ColumnRef& weights,
                                     const Chunking& chunking);
 
 /// sum w_i (b_i - c(u_i) g_i)^2 (paper Eq. 17), weights as in CellTable.
