@@ -29,6 +29,7 @@ struct BatchState {
   std::size_t failed = 0;  ///< of kept and done
 };
 
+/// What is done with jobs that failed before, and who is told.
 struct BatchOptions {
   bool retry_failed = false;  ///< otherwise a job that failed is a job finished
   /// Told of each job before it begins, never by two threads at once. Where it throws, the jobs that run are finished

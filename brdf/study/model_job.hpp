@@ -21,6 +21,7 @@ struct JobFiles {
   std::filesystem::path curves;  ///< NAME.curves.json, curves_json
   std::filesystem::path model;   ///< NAME.model.json, as write_brdf; of models that have this form
 };
+/// @param place the folder of the material.
 [[nodiscard]] JobFiles job_files(const std::filesystem::path& place, const Contender& contender);
 
 /// The row of a finished job. Empty where there is none, or one made from other inputs.

@@ -11,6 +11,7 @@
 
 namespace sklar {
 
+/// How the rows are divided.
 struct HeldOutOptions {
   int folds = 5;           ///< equal parts of the rows, 2 to n, drawn without regard to weights
   bool every_fold = true;  ///< each is held out in turn; else one of them alone

@@ -21,10 +21,12 @@ using StoredMarginal =
 [[nodiscard]] std::shared_ptr<const Marginal> share(const StoredMarginal& margin);
 [[nodiscard]] std::shared_ptr<const DensityMarginal> density_of(const StoredMarginal& margin);
 
+/// What a margin is fitted as.
 enum class MarginKind { empirical, kernel, normal, gamma, beta };
 
 [[nodiscard]] std::string_view to_text(MarginKind kind);  ///< "empirical", ...
 
+/// A kind of margin with its support.
 struct MarginSpec {
   MarginKind kind = MarginKind::empirical;
   double lowest = 0;  ///< of the support of a beta margin

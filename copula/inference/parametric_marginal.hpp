@@ -10,6 +10,7 @@
 
 namespace sklar {
 
+/// Normal with mean and standard deviation.
 class NormalMarginal final : public DensityMarginal {
  public:
   /// @throws std::domain_error unless mean is finite and sd finite and above 0.
