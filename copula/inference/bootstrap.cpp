@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "copula/inference/dependence.hpp"
-
 namespace sklar {
 namespace {
 
@@ -30,8 +28,7 @@ void for_each_replicate(const Copula& copula, Index n, const BootstrapOptions& o
   int done = 0;
   oneapi::tbb::parallel_for(0, options.replicates, [&](int replicate) {
     Rng rng(mixed(mixed(options.seed) + static_cast<std::uint64_t>(replicate)));
-    const Points sample = copula.sample(n, rng);
-    body(replicate, options.ranks ? pseudo_observations(sample) : sample);
+    body(replicate, copula.sample(n, rng));
     if (!options.progress) return;
     const std::lock_guard lock(mutex);
     options.progress(static_cast<double>(++done) / options.replicates);

@@ -1,5 +1,5 @@
 #pragma once
-/// The parametric bootstrap: samples of a fitted copula, treated as the data were.
+/// The parametric bootstrap: samples of a fitted copula.
 
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,6 @@ namespace sklar {
 struct BootstrapOptions {
   int replicates = 1000;   ///< >= 1
   std::uint64_t seed = 1;  ///< one seed gives one result, whatever the number of threads
-  bool ranks = true;       ///< a sample is replaced by its pseudo-observations; false: for data with known margins
 
   /// Given the share done, in (0,1], rising, never by two threads at once. What it throws ends the work.
   std::function<void(double share)> progress{};

@@ -95,7 +95,10 @@ std::string_view to_text(GoodnessStatistic statistic) {
 }
 
 GoodnessResult test_goodness(const FamilyInfo& family, const PointsRef& x, const GoodnessOptions& options) {
-  const Points u = options.bootstrap.ranks ? pseudo_observations(x) : Points(x);
+  const auto seen = [&options](const PointsRef& points) {
+    return options.ranks ? pseudo_observations(points) : Points(points);
+  };
+  const Points u = seen(x);
   FitOptions fit_options = options.fit;
   GoodnessResult result{.fit = fit(family, options.method, u, Column(), fit_options)};
   result.tied = tied_values(x);
@@ -106,7 +109,8 @@ GoodnessResult test_goodness(const FamilyInfo& family, const PointsRef& x, const
 
   fit_options.standard_errors = false;
   std::vector<double> replicated(static_cast<std::size_t>(std::max(options.bootstrap.replicates, 0)), result.kNone);
-  for_each_replicate(*copula, u.rows(), options.bootstrap, [&](int replicate, const Points& sample) {
+  for_each_replicate(*copula, u.rows(), options.bootstrap, [&](int replicate, const Points& drawn) {
+    const Points sample = seen(drawn);
     const FitResult refit = fit(family, options.method, sample, Column(), fit_options);
     if (refit.status == FitStatus::failed) return;
     replicated[static_cast<std::size_t>(replicate)] =

@@ -32,7 +32,8 @@ enum class GoodnessStatistic { cramer_von_mises, rosenblatt };
 struct GoodnessOptions {
   GoodnessStatistic statistic = GoodnessStatistic::cramer_von_mises;
   FitMethod method = FitMethod::maximum_likelihood;  ///< of the data and of every replicate
-  BootstrapOptions bootstrap = {};                   ///< ranks: the data are replaced by their pseudo-observations too
+  bool ranks = true;  ///< the data and every sample are replaced by their pseudo-observations
+  BootstrapOptions bootstrap = {};
   FitOptions fit = {};
 };
 
@@ -55,7 +56,7 @@ struct GoodnessResult {
 /// never 0; where the family is right, p is asymptotically uniform on its N + 1 values. The standard error is
 /// sqrt(p (1 - p) / N). Ties do not occur in the samples: data with many have p-values that are too small or too large
 /// (Kojadinovic 2017, Comput. Statist. Data Anal. 112, 24).
-/// @param x n x d, n, d >= 2: finite values of any margins, or with bootstrap.ranks false points of the copula in
+/// @param x n x d, n, d >= 2: finite values of any margins, or without ranks points of the copula in
 /// (0,1). @return without statistic and p_value where the fit fails.
 /// @throws std::invalid_argument, std::domain_error as fit does, and for replicates below 1.
 [[nodiscard]] GoodnessResult test_goodness(const FamilyInfo& family, const PointsRef& x,

@@ -7,6 +7,7 @@
 
 #include "copula/error.hpp"
 #include "copula/inference/checks.hpp"
+#include "copula/inference/dependence.hpp"
 #include "copula/inference/minimise.hpp"
 #include "copula/inference/objective.hpp"
 #include "copula/inference/rank_covariance.hpp"
@@ -35,7 +36,7 @@ class Maximum {
         least_(-likelihood(z_)) {}
 
   [[nodiscard]] std::size_t size() const { return z_.size(); }
-  [[nodiscard]] bool has_spread() const { return spread_.covariance.allFinite(); }
+  [[nodiscard]] bool has_spread() const { return (spread_.covariance.diagonal().array() > 0).all(); }  ///< NaN: no
 
   [[nodiscard]] double standard_error(std::size_t a) const {
     const std::vector<double> theta = slopes([this, a](const Theta& at) { return at[a]; });
@@ -188,7 +189,8 @@ ConfidenceIntervals by_likelihood(const FamilyInfo& family, const FitResult& res
   if (result.status != FitStatus::converged) return none(result, result.message);
   if (result.theta.empty()) return none(result, "the family has no parameters");
   const Maximum maximum(family, result, u, options);
-  if (!maximum.has_spread()) return none(result, "the likelihood has no curvature at its maximum");
+  if (!maximum.has_spread())
+    return none(result, "the likelihood at its maximum does not tell the spread of the estimate");
   ConfidenceIntervals intervals = none(result, "");
   const bool wald = options.method == IntervalMethod::wald;
   for (std::size_t a = 0; a < maximum.size(); ++a) {
@@ -233,11 +235,10 @@ ConfidenceIntervals by_bootstrap(const FamilyInfo& family, const FitResult& resu
   if (result.status == FitStatus::failed) return none(result, result.message);
   FitOptions fit_options = options.fit;
   fit_options.standard_errors = false;
-  BootstrapOptions bootstrap = options.bootstrap;
-  bootstrap.ranks = options.ranks;
-  std::vector<FitResult> fits(static_cast<std::size_t>(bootstrap.replicates));
-  for_each_replicate(*family.make(static_cast<int>(u.cols()), result.theta), u.rows(), bootstrap,
-                     [&](int replicate, const Points& sample) {
+  std::vector<FitResult> fits(static_cast<std::size_t>(options.bootstrap.replicates));
+  for_each_replicate(*family.make(static_cast<int>(u.cols()), result.theta), u.rows(), options.bootstrap,
+                     [&](int replicate, const Points& drawn) {
+                       const Points sample = options.ranks ? pseudo_observations(drawn) : drawn;
                        fits[static_cast<std::size_t>(replicate)] =
                            fit(family, result.method, sample, Column(), fit_options);
                      });
@@ -249,7 +250,7 @@ ConfidenceIntervals by_bootstrap(const FamilyInfo& family, const FitResult& resu
     return values;
   };
   ConfidenceIntervals intervals = none(result, "");
-  intervals.failed = bootstrap.replicates - static_cast<int>(fits.size());
+  intervals.failed = options.bootstrap.replicates - static_cast<int>(fits.size());
   for (std::size_t a = 0; a < result.theta.size(); ++a) {
     const std::vector<double> values = over([a](const FitResult& one) { return one.theta[a]; });
     intervals.theta[a] = percentiles(values, options.confidence);

@@ -25,7 +25,7 @@ enum class IntervalMethod { wald, profile, bootstrap };
 struct IntervalOptions {
   IntervalMethod method = IntervalMethod::wald;
   double confidence = 0.95;  ///< in (0,1)
-  bool ranks = true;         ///< u are pseudo-observations, not points of known margins; goes before bootstrap.ranks
+  bool ranks = true;         ///< u are pseudo-observations, not points of known margins
   BootstrapOptions bootstrap = {.replicates = 999};
   FitOptions fit = {};  ///< of the replicates
 };

@@ -122,14 +122,14 @@ TEST(Goodness, TakesKnownMarginsAndOtherMethods) {
   const Points u = simulated("gumbel", 2, 0.4, 150, 9);
   for (const FitMethod method : {FitMethod::tau_inversion, FitMethod::maximum_likelihood}) {
     for (const bool ranks : {false, true}) {
-      const GoodnessOptions options{.method = method, .bootstrap = {.replicates = 49, .ranks = ranks}};
+      const GoodnessOptions options{.method = method, .ranks = ranks, .bootstrap = {.replicates = 49}};
       const GoodnessResult result = test_goodness(family("gumbel"), u, options);
       EXPECT_EQ(result.fit.method, method);
       EXPECT_EQ(result.fit.theta, fit(family("gumbel"), method, ranks ? pseudo_observations(u) : u).theta);
       EXPECT_GT(result.p_value, 0.02);
     }
   }
-  EXPECT_THROW((void)test_goodness(family("gumbel"), 3 * u, {.bootstrap = {.ranks = false}}), std::domain_error);
+  EXPECT_THROW((void)test_goodness(family("gumbel"), 3 * u, {.ranks = false}), std::domain_error);
 }
 
 TEST(Goodness, SaysWhatItCannotDo) {
@@ -157,10 +157,9 @@ TEST(Bootstrap, DrawsAnotherSampleForEveryReplicateAndSeed) {
   const CopulaPtr copula = family("frank").make(2, {2});
   std::vector<double> first(20);
   for (const std::uint64_t seed : {1, 2}) {
-    for_each_replicate(*copula, 1, {.replicates = 10, .seed = seed, .ranks = false},
-                       [&](int replicate, const Points& u) {
-                         first[10 * (seed - 1) + static_cast<std::size_t>(replicate)] = u(0, 0);
-                       });
+    for_each_replicate(*copula, 1, {.replicates = 10, .seed = seed}, [&](int replicate, const Points& u) {
+      first[10 * (seed - 1) + static_cast<std::size_t>(replicate)] = u(0, 0);
+    });
   }
   std::ranges::sort(first);
   EXPECT_EQ(std::ranges::adjacent_find(first), first.end());

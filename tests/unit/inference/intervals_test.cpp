@@ -126,7 +126,8 @@ TEST(Intervals, OfTheBootstrapAreOrderStatistics) {
   std::vector<double> thetas(19);
   for_each_replicate(*family("frank").make(2, fitted.theta), 60, options.bootstrap,
                      [&](int replicate, const Points& x) {
-                       thetas[static_cast<std::size_t>(replicate)] = fit_tau_inversion(family("frank"), x).theta[0];
+                       thetas[static_cast<std::size_t>(replicate)] =
+                           fit_tau_inversion(family("frank"), pseudo_observations(x)).theta[0];
                      });
   const Interval found = confidence_intervals(family("frank"), fitted, u, options).theta[0];
   EXPECT_EQ(found.lowest, std::ranges::min(thetas));
