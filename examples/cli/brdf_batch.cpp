@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <csignal>
 #include <iostream>
@@ -31,12 +32,13 @@ struct Options {
   std::string part;
 };
 
-volatile std::sig_atomic_t interrupted = 0;
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set no other");
 
 /// The first SIGINT or SIGTERM lets the jobs that run finish, the second ends the program.
 void end_cleanly_on_signals() {
   struct sigaction action = {};
-  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_handler = [](int) { interrupted = true; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
@@ -112,7 +114,7 @@ std::vector<brdf::ModelRow> fit(const Options& options, const std::vector<brdf::
   return brdf::fit_batch(
       materials, contenders, options.folder,
       {.retry_failed = options.retry_failed, .progress = [&](const brdf::BatchState& state, const std::string& job) {
-         if (interrupted != 0) {
+         if (interrupted) {
            throw std::runtime_error("interrupted; what is done is kept, the same command goes on");
          }
          steps.show(progress_text(state, job, stopwatch.seconds()));
