@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -52,7 +53,7 @@ struct Kind {
   Content (*read)(const fs::path& file);
 };
 
-/// Density and distribution function, with margins of the points' own units.
+/// Density and distribution function on the unit cube.
 Content of_copula(const CopulaPtr& copula) {
   return {.names = {"log_pdf", "cdf"}, .at = [copula](const PointsRef& points) {
             // A damaged file may hold a copula of another dimension.
@@ -63,6 +64,7 @@ Content of_copula(const CopulaPtr& copula) {
           }};
 }
 
+/// With margins, of the joint distribution.
 Content read_copula(const fs::path& file) {
   const CopulaModel model = read_model(file, families::all());
   Content content = of_copula(make_copula(model, families::all()));
