@@ -12,6 +12,12 @@
 #include "tests/fuzz/targets.hpp"
 
 namespace sklar::test {
+
+/// As GoogleTest shows a parameter.
+void PrintTo(const FuzzTarget& target, std::ostream* out) {
+  *out << target.name;
+}
+
 namespace {
 namespace fs = std::filesystem;
 
