@@ -86,8 +86,8 @@ Theta invert(const FamilyInfo& family, int dim, const char* what, double value,
   for (; at_high < 0 && high < highest; at_high = miss(high)) high = std::min(high + 1, highest);
   if (!(at_low <= 0 && at_high >= 0)) {
     const bool below = at_low > 0;
-    // The measure has an absolute error of 1e-10.
-    const double end = 0 + std::round(1e9 * (value + (below ? at_low : at_high))) / 1e9;
+    const double found = value + (below ? at_low : at_high);
+    const double end = std::abs(found) < kTolerance ? 0 : found;
     throw std::domain_error(family.name + ": " + what + " must be " + to_text(end) + (below ? " or more" : " or less") +
                             " in dimension " + std::to_string(dim) + ", got " + to_text(value));
   }
