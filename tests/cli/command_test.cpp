@@ -226,7 +226,10 @@ TEST_F(CopulaFit, PrintsTheBestFirst) {
 
 TEST_F(CopulaFit, RefusesBadData) {
   write("data.csv", "x,y\n1,2\n3,nan\n");
-  expect_refused("copula fit data.csv -o out.csv", "data.csv: line 3: every value must be finite");
+  expect_refused("copula fit data.csv -o out.csv",
+                 "data.csv: 1 value is missing in 1 of 2 rows, the first in line 3, column y");
+  write("data.csv", "x,y\n1,2\n3,-inf\n");
+  expect_refused("copula fit data.csv -o out.csv", "data.csv: line 3, column y: must be finite, got -inf");
   write("data.csv", "x,y\n1,2\n3\n");
   expect_refused("copula fit data.csv -o out.csv", "line 3");
   write("data.csv", "x\n1\n2\n");
