@@ -8,6 +8,7 @@
 #include "brdf/study/table_text.hpp"
 #include "copula/archimedean_copula.hpp"
 #include "copula/inference/dependence.hpp"
+#include "copula/inference/diagnostics.hpp"
 #include "copula/rotated.hpp"
 #include "examples/cli/text.hpp"
 
@@ -39,22 +40,10 @@ Column kendall_arguments() {
   return Column::LinSpaced(kSteps + 1, 0, 1);
 }
 
-/// The share of rows i with V_i <= t, V_i the share of the other rows that are less in every coordinate. Genest and
-/// Rivest (1993), J. Amer. Statist. Assoc. 88, 1034. O(n^2 d).
-Column empirical_kendall(const Points& u, const Column& t) {
-  std::vector<double> below(static_cast<std::size_t>(u.rows()));
-  for (Index i = 0; i < u.rows(); ++i) {
-    Index count = 0;
-    for (Index j = 0; j < u.rows(); ++j) count += (u.row(j) < u.row(i)).all();
-    below[static_cast<std::size_t>(i)] = static_cast<double>(count) / static_cast<double>(u.rows() - 1);
-  }
-  std::ranges::sort(below);
-  Column shares(t.size());
-  for (Index n = 0; n < t.size(); ++n) {
-    const auto count = std::ranges::upper_bound(below, t(n)) - below.begin();
-    shares(n) = static_cast<double>(count) / static_cast<double>(below.size());
-  }
-  return shares;
+/// The share of joint ranks up to each argument.
+Column empirical_kendall(const Points& u) {
+  const Column ranks = joint_ranks(u);
+  return kendall_arguments().unaryExpr([&](double t) { return (ranks <= t).cast<double>().mean(); });
 }
 
 /// A copula without its rotations: that of the coordinates of which the reflected ones are 1 - U.
@@ -75,40 +64,6 @@ Unrotated unrotated(CopulaPtr copula) {
   return {std::move(copula), std::move(reflected)};
 }
 
-/// The data as the families need them: first as they are, then reflected in the coordinates of each rotation.
-class Reflections {
- public:
-  Reflections(const Points& u, const std::vector<std::string>& columns) : u_(u), columns_(columns) {
-    (void)place(std::vector<bool>(columns.size()));
-  }
-
-  [[nodiscard]] std::size_t place(const std::vector<bool>& reflected) {
-    const auto known = std::ranges::find(known_, reflected);
-    const auto place = static_cast<std::size_t>(known - known_.begin());
-    if (known != known_.end()) return place;
-    known_.push_back(reflected);
-    std::string names;
-    Points data = u_;
-    for (std::size_t k = 0; k < reflected.size(); ++k) {
-      if (!reflected[k]) continue;
-      names += (names.empty() ? "" : ", ") + columns_[k];
-      const auto column = static_cast<Index>(k);
-      data.col(column) = 1 - data.col(column);
-    }
-    json_.push_back({{"label", names.empty() ? "data" : "data with 1 − u of " + names},
-                     {"kendall", rounded(empirical_kendall(data, kendall_arguments()))}});
-    return place;
-  }
-
-  [[nodiscard]] const Json& json() const { return json_; }
-
- private:
-  const Points& u_;
-  const std::vector<std::string>& columns_;
-  std::vector<std::vector<bool>> known_;
-  Json json_ = Json::array();
-};
-
 Json figures_of(const FitResult& result) {
   Json row = {{"name", result.family},
               {"status", to_text(result.status)},
@@ -123,16 +78,13 @@ Json figures_of(const FitResult& result) {
 }
 
 /// What the plots show of a fitted family; of another kind than Archimedean the density of two columns alone.
-void add_curves(Json& row, const Copula& copula, const Unrotated& base, Reflections& reflections) {
-  const auto* archimedean = dynamic_cast<const ArchimedeanCopula*>(base.copula.get());
+void add_curves(Json& row, const CopulaPtr& copula) {
+  const Unrotated base = unrotated(copula);
   row["reflected"] = base.reflected;
-  row["reflection"] = reflections.place(base.reflected);
-  row["density"] = nullptr;
-  row["kendall"] = nullptr;
-  if (archimedean != nullptr || copula.dim() == 2) {
-    row["density"] = Json::parse(brdf::pair_density_json(copula, kNodes));
-  }
-  if (archimedean != nullptr) row["kendall"] = rounded(archimedean->kendall_cdf(kendall_arguments()));
+  const bool pairs_alike = dynamic_cast<const ArchimedeanCopula*>(base.copula.get()) != nullptr;
+  row["density"] =
+      pairs_alike || copula->dim() == 2 ? Json::parse(brdf::pair_density_json(*copula, kNodes)) : Json(nullptr);
+  row["kendall"] = rounded(kendall_distribution(*copula, kendall_arguments()));
 }
 
 Json pairs_of(const Points& u) {
@@ -157,19 +109,17 @@ void write_fit_report(const std::string& path, const FitReport& report, std::spa
                {"columns", report.columns},
                {"pairs", pairs_of(report.u)},
                {"points", Json::array()},
-               {"kendall_t", rounded(kendall_arguments())}};
+               {"kendall_t", rounded(kendall_arguments())},
+               {"kendall", rounded(empirical_kendall(shown))}};
   for (Index k = 0; k < shown.cols(); ++k) data["points"].push_back(rounded(shown.col(k)));
-  Reflections reflections(shown, report.columns);
   for (const FitResult& result : results) {
     Json row = figures_of(result);
     if (result.status != FitStatus::failed) {
       const FamilyInfo* family = *std::ranges::find(families, result.family, &FamilyInfo::name);
-      const CopulaPtr copula = family->make(static_cast<int>(shown.cols()), result.theta);
-      add_curves(row, *copula, unrotated(copula), reflections);
+      add_curves(row, family->make(static_cast<int>(shown.cols()), result.theta));
     }
     data["rows"].push_back(std::move(row));
   }
-  data["reflections"] = reflections.json();
   write_output(path, brdf::report_file(brdf::ReportKind::fit, "Copula families fitted", data.dump()));
 }
 
