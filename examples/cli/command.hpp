@@ -38,6 +38,7 @@ void add_copula_fit(CLI::App& parent, Common& common);
 void add_copula_plot(CLI::App& parent, Common& common);
 void add_copula_sample(CLI::App& parent, Common& common);
 void add_copula_table(CLI::App& parent, Common& common);
+void add_copula_test(CLI::App& parent, Common& common);
 void add_tradeoff(CLI::App& parent, Common& common);
 
 }  // namespace sklar::cli
