@@ -8,6 +8,7 @@
 #include "examples/cli/command.hpp"
 #include "examples/cli/copula_data.hpp"
 #include "examples/cli/copula_fits.hpp"
+#include "examples/cli/fit_intervals.hpp"
 #include "examples/cli/fit_report.hpp"
 #include "examples/cli/text.hpp"
 
@@ -25,6 +26,7 @@ struct Options {
   bool together = false;
   Select select = Select::aic;
   int folds = 5;
+  IntervalSettings intervals;
   std::string model;
   std::string output;
   std::string report;
@@ -80,6 +82,20 @@ void add_held_out(const Options& options, const std::vector<MarginSpec>& specs, 
   for (std::size_t i = 0; i < found.size(); ++i) fits.families[i].held_out = found[i];
 }
 
+void add_intervals(const Options& options, const std::vector<MarginSpec>& specs, const Sample& sample,
+                   const Uniforms& uniforms, const Common& common, Fits& fits) {
+  if (!options.intervals.confidence) return;
+  if (sample.weights.size() > 0 || options.together) {
+    throw std::invalid_argument("--confidence takes neither --weights nor --fit joint");
+  }
+  const auto ranked = [](const MarginSpec& spec) { return spec.kind == MarginKind::empirical; };
+  const bool ranks = !specs.empty() && std::all_of(specs.begin(), specs.end(), ranked);
+  for (FamilyFit& family : fits.families) {
+    family.intervals =
+        intervals_of(*family.family, family.fit.copula, uniforms.u, ranks, options.intervals, common.seed);
+  }
+}
+
 std::vector<FitResult> copula_fits(const Fits& fits) {
   std::vector<FitResult> results;
   for (const FamilyFit& family : fits.families) results.push_back(family.fit.copula);
@@ -113,6 +129,7 @@ void run(const Options& options, const Common& common) {
   if (best.fit.copula.status == FitStatus::failed) {
     throw std::runtime_error("no family could be fitted; " + best.fit.copula.family + ": " + best.fit.copula.message);
   }
+  add_intervals(options, specs, sample, uniforms, common, fits);
   if (!options.model.empty()) write_file(options.model, to_json(model_of(best, static_cast<int>(sample.x.cols()))));
   if (!options.report.empty()) {
     write_fit_report(options.report, {options.margins, sample.names, uniforms.u}, chosen, copula_fits(fits));
@@ -155,6 +172,7 @@ void add_copula_fit(CLI::App& parent, Common& common) {
                      {{"aic", Select::aic}, {"bic", Select::bic}, {"cv", Select::cv}, {"holdout", Select::holdout}},
                      "aic");
   command->add_option("--folds", options->folds, "cv, holdout: parts of the data")->capture_default_str();
+  add_interval_options(*command, options->intervals);
   command->add_option("--model", options->model, "write the best copula with its margins here");
   command->add_option("-o", options->output, "write here, not to standard output");
   command->add_option("--report", options->report, "write a page for a browser here, with table and plots");

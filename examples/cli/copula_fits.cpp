@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "examples/cli/fit_intervals.hpp"
 #include "examples/cli/text.hpp"
 
 namespace sklar::cli {
@@ -76,6 +77,7 @@ std::string json_of(const Fits& fits, const Sample& sample) {
       entry["heldout_se"] = json_number(family.held_out->standard_error);
       entry["heldout_message"] = family.held_out->message;
     }
+    if (family.intervals) entry["intervals"] = interval_json(*family.intervals);
     if (fits.together) entry["margins"] = json_of(family.fit.margins, sample);
     document["families"].push_back(std::move(entry));
   }
@@ -91,7 +93,9 @@ std::string csv_of(const Fits& fits) {
   const bool held_out = fits.families.front().held_out.has_value();
   std::string out = "name,theta,tau,loglik,aic,bic,se,status,evaluations,message";
   out += fits.densities ? ",joint_loglik,joint_aic,joint_bic" : "";
-  out += held_out ? ",heldout,heldout_se,heldout_message\n" : "\n";
+  out += held_out ? ",heldout,heldout_se,heldout_message" : "";
+  out += fits.families.front().intervals ? interval_header() : "";
+  out += '\n';
   for (const FamilyFit& family : fits.families) {
     const FitResult& result = family.fit.copula;
     out += csv_field(result.family) + ',' + digits(result.theta) + ',' + digits(result.tau) + ',' +
@@ -105,6 +109,7 @@ std::string csv_of(const Fits& fits) {
       out += ',' + digits(family.held_out->mean) + ',' + digits(family.held_out->standard_error) + ',' +
              csv_field(family.held_out->message);
     }
+    if (family.intervals) out += interval_fields(*family.intervals);
     out += '\n';
   }
   return out;

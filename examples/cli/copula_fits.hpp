@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "copula/inference/held_out.hpp"
+#include "copula/inference/intervals.hpp"
 #include "copula/inference/joint_fit.hpp"
 #include "copula/inference/model_io.hpp"
 #include "examples/cli/copula_data.hpp"
@@ -18,6 +19,7 @@ struct FamilyFit {
   const FamilyInfo* family;
   JointFit fit;
   std::optional<HeldOut> held_out{};
+  std::optional<ConfidenceIntervals> intervals{};
 };
 
 struct Fits {

@@ -1,4 +1,4 @@
-/// `sklar copula test`.
+/// `sklar copula test` and intervals in `sklar copula fit`.
 
 #include <gtest/gtest.h>
 
@@ -56,6 +56,35 @@ TEST_F(CopulaTest, WarnsOfTiesAndRefusesBadInput) {
   expect_refused("copula test missing.csv --family frank", "missing.csv");
   expect_usage_error("copula test clayton.csv");
   expect_usage_error("copula test clayton.csv --family frank --statistic x");
+}
+
+using FitIntervals = Statistics;
+
+TEST_F(FitIntervals, AreAddedWhereAskedFor) {
+  const std::string arguments = "copula fit clayton.csv --families clayton,independence ";
+  const std::string plain = run(arguments).out;
+  const std::string header = plain.substr(0, plain.find('\n'));
+  const Result wald = run(arguments + "--confidence 0.9");
+  EXPECT_TRUE(wald.out.starts_with(header + ",theta_low,theta_high,tau_low,tau_high,interval_se,interval_message\n"))
+      << wald.out;
+  EXPECT_NE(wald.out.find("the family has no parameters"), std::string::npos) << wald.out;
+  const auto intervals = [&](const std::string& options) {
+    return nlohmann::json::parse(run(arguments + "--json " + options).out)["families"][0]["intervals"];
+  };
+  EXPECT_TRUE(intervals("").is_null());
+  for (const std::string method : {"wald", "profile", "bootstrap --replicates 99"}) {
+    const auto found = intervals("--confidence 0.9 --interval " + method);
+    EXPECT_LT(found["tau_low"], 0.5) << method;
+    EXPECT_GT(found["tau_high"], 0.5) << method;
+  }
+  EXPECT_NE(intervals("--confidence 0.9"), intervals("--confidence 0.9 --margins none"));
+}
+
+TEST_F(FitIntervals, RefuseWhatTheyCannotDo) {
+  expect_refused("copula fit clayton.csv --confidence 1", "confidence must be in (0,1), got 1");
+  expect_refused("copula fit clayton.csv --confidence 0.99 --interval bootstrap --replicates 100",
+                 "need 199 fitted replicates or more, got 100");
+  expect_usage_error("copula fit clayton.csv --interval wald");
 }
 
 }  // namespace
