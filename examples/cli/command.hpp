@@ -36,6 +36,7 @@ void add_brdf_sample(CLI::App& parent, Common& common);
 void add_copula_derive(CLI::App& parent, Common& common);
 void add_copula_fit(CLI::App& parent, Common& common);
 void add_copula_plot(CLI::App& parent, Common& common);
+void add_copula_predict(CLI::App& parent, Common& common);
 void add_copula_sample(CLI::App& parent, Common& common);
 void add_copula_table(CLI::App& parent, Common& common);
 void add_copula_test(CLI::App& parent, Common& common);

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   add_copula_fit(*copula, common);
   add_copula_plot(*copula, common);
   add_copula_test(*copula, common);
+  add_copula_predict(*copula, common);
   add_copula_derive(*copula, common);
   CLI::App* brdf = app.add_subcommand("brdf", "work on a material")->require_subcommand(1);
   add_brdf_albedo(*brdf, common);

@@ -1,4 +1,4 @@
-/// `sklar copula test` and intervals in `sklar copula fit`.
+/// `sklar copula test`, intervals in `sklar copula fit`, `sklar copula predict`.
 
 #include <gtest/gtest.h>
 
@@ -85,6 +85,49 @@ TEST_F(FitIntervals, RefuseWhatTheyCannotDo) {
   expect_refused("copula fit clayton.csv --confidence 0.99 --interval bootstrap --replicates 100",
                  "need 199 fitted replicates or more, got 100");
   expect_usage_error("copula fit clayton.csv --interval wald");
+}
+
+/// Three columns, the second against the others.
+class CopulaPredict : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    write("model.json", R"({"format": "sklar copula", "version": 2, "family": "clayton@u2", "dim": 3, "theta": [3],
+      "margins": [{"kind": "histogram", "edges": [0, 10], "masses": [1]}, {"kind": "histogram", "edges": [0, 1],
+      "masses": [1]}, {"kind": "histogram", "edges": [-1, 1], "masses": [1]}]})");
+    write("data.csv", "x2\n0.1\n0.9\n");
+  }
+};
+
+TEST_F(CopulaPredict, PrintsQuantilesOfTheOtherColumns) {
+  const Result result = run("copula predict model.json data.csv --quantiles 0.1,0.5");
+  EXPECT_TRUE(result.out.starts_with("x1_q0.1,x1_q0.5,x3_q0.1,x3_q0.5\n")) << result.out << result.err;
+  const auto rows = nlohmann::json::parse(run("copula predict model.json data.csv --json").out)["rows"];
+  ASSERT_EQ(rows.size(), 2);
+  EXPECT_GT(rows[0][1], 7) << "the median of x1 where x2 is low";
+  EXPECT_LT(rows[1][1], 3);
+  write("named.csv", "c,a\n0.5,7.5\n");
+  const Result named = run("copula predict model.json named.csv --columns a,b,c --quantiles 0.5");
+  EXPECT_TRUE(named.out.starts_with("b_q0.5\n0.2")) << named.out << named.err;
+}
+
+TEST_F(CopulaPredict, DrawsPointsOfAllColumns) {
+  const Result result = run("copula predict model.json data.csv -n 2 --seed 5");
+  EXPECT_TRUE(result.out.starts_with("x1,x2,x3\n")) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 5);
+  EXPECT_EQ(result.out, run("copula predict model.json data.csv -n 2 --seed 5 --threads 1").out);
+  EXPECT_NE(result.out, run("copula predict model.json data.csv -n 2 --seed 6").out);
+}
+
+TEST_F(CopulaPredict, RefusesOtherColumns) {
+  write("other.csv", "y\n1\n");
+  expect_refused("copula predict model.json other.csv", "the model has no column 'y'; its columns: x1, x2, x3");
+  write("all.csv", "x1,x2,x3\n1,0.5,0\n");
+  expect_refused("copula predict model.json all.csv", "all 3 columns are given");
+  expect_refused("copula predict model.json data.csv --columns a,b", "the model has 3 columns, got 2 names");
+  expect_refused("copula predict model.json data.csv --quantiles 1.5", "--quantiles must be in [0,1], got 1.5");
+  expect_usage_error("copula predict model.json data.csv -n 0");
+  expect_usage_error("copula predict model.json data.csv -n 3 --quantiles 0.5");
 }
 
 }  // namespace
