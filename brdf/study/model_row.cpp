@@ -145,15 +145,15 @@ struct Summary {
 }  // namespace
 
 std::string to_json(const ModelRow& row) {
-  Json document = {{"format", kFormat}, {"version", 1}};
+  Json document = {{"format", kFormat}, {"version", row.inputs.empty() ? 1 : 2}};
   document.update(row_to_json(row));
-  document["inputs"] = row.inputs;
+  if (!row.inputs.empty()) document["inputs"] = row.inputs;
   return document.dump(1) + "\n";
 }
 
 ModelRow model_row_from_json(std::string_view text, std::string_view source) {
   return json::parse(text, source, [](const Json& document) {
-    json::require_format(document, kFormat, 1);
+    json::require_format(document, kFormat, kModelRowVersion);
     ModelRow row{.material = json::text(document, "material"),
                  .provenance = provenance_of(json::text(document, "provenance")),
                  .kind = json::text(document, "kind"),

@@ -8,7 +8,11 @@
 
 namespace sklar::brdf {
 
-/// One row as a JSON document, all digits.
+/// The newest version written and read.
+inline constexpr int kModelRowVersion = 2;
+
+/// One row as a JSON document, all digits: {"format": "sklar-model-comparison", "version": 1, ..} with the names of
+/// ModelRow; version 2 where it has inputs.
 [[nodiscard]] std::string to_json(const ModelRow& row);
 
 /// The row of such a document. @param source names it in errors. @throws FileError for anything wrong with the text.

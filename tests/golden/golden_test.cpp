@@ -205,7 +205,7 @@ const std::map<std::string, Kind> kKinds = {{"binary", {brdf::kBinaryVersion, re
                                             {"copula", {kModelVersion, read_copula}},
                                             {"family", {symbolic::kFamilyVersion, read_family}},
                                             {"rgl", {1, read_rgl}},
-                                            {"row", {1, read_row}},
+                                            {"row", {brdf::kModelRowVersion, read_row}},
                                             {"scene", {brdf::kSceneVersion, read_scene}}};
 
 struct GoldenFile {
