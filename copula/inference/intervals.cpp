@@ -39,7 +39,7 @@ class Maximum {
   [[nodiscard]] bool has_spread() const { return (spread_.covariance.diagonal().array() > 0).all(); }  ///< NaN: no
 
   [[nodiscard]] double standard_error(std::size_t a) const {
-    const std::vector<double> theta = slopes([this, a](const Theta& at) { return at[a]; });
+    const std::vector<double> theta = slopes([a](const Theta& at) { return at[a]; });
     return error_of(theta);
   }
 
