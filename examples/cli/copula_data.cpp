@@ -71,7 +71,6 @@ double Sample::total_weight() const {
 void add_data_options(CLI::App& command, DataOptions& options) {
   command.add_option("FILE", options.path, "a header, then one observation a line")->required();
   command.add_option("--columns", options.columns, "names of the columns, separated by commas; by default all");
-  command.add_option("--weights", options.weights, "name of a column of frequencies: a row of weight k counts k times");
   command
       .add_option("--missing", options.drop,
                   "rows with a missing value (an empty field, NA, NaN, nan or .): error or drop")

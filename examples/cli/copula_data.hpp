@@ -1,5 +1,5 @@
 #pragma once
-/// The sample that `copula fit` reads, and the margins it is given.
+/// The sample that `copula fit`, `test` and `plot` read, and the margins it is given.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -27,6 +27,7 @@ struct Sample {
   [[nodiscard]] double total_weight() const;
 };
 
+/// Adds FILE, --columns and --missing.
 void add_data_options(CLI::App& command, DataOptions& options);
 
 /// @throws FileError naming line and column of a bad field, counting missing values unless they are dropped.

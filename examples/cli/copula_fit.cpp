@@ -85,14 +85,13 @@ void add_held_out(const Options& options, const std::vector<MarginSpec>& specs, 
 void add_intervals(const Options& options, const std::vector<MarginSpec>& specs, const Sample& sample,
                    const Uniforms& uniforms, const Common& common, Fits& fits) {
   if (!options.intervals.confidence) return;
-  if (sample.weights.size() > 0 || options.together) {
-    throw std::invalid_argument("--confidence takes neither --weights nor --fit joint");
-  }
   const auto ranked = [](const MarginSpec& spec) { return spec.kind == MarginKind::empirical; };
-  const bool ranks = !specs.empty() && std::all_of(specs.begin(), specs.end(), ranked);
+  if (sample.weights.size() > 0 || !std::all_of(specs.begin(), specs.end(), ranked)) {
+    throw std::invalid_argument("--confidence takes --margins empirical or none, and no --weights");
+  }
   for (FamilyFit& family : fits.families) {
     family.intervals =
-        intervals_of(*family.family, family.fit.copula, uniforms.u, ranks, options.intervals, common.seed);
+        intervals_of(*family.family, family.fit.copula, uniforms.u, !specs.empty(), options.intervals, common.seed);
   }
 }
 
@@ -150,6 +149,8 @@ void add_copula_fit(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("fit", "fit families to the columns of a CSV file, the best first");
   const auto options = std::make_shared<Options>();
   add_data_options(*command, options->data);
+  command->add_option("--weights", options->data.weights,
+                      "name of a column of frequencies: a row of weight k counts k times");
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--margins", options->margins, kMarginsHelp)
       ->check(CLI::Validator([](const std::string& text) { return check_margins(text); }, ""))

@@ -7,12 +7,13 @@
 #include <numeric>
 
 #include "brdf/study/table_text.hpp"
-#include "copula/inference/csv.hpp"
+#include "copula/file.hpp"
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/diagnostics.hpp"
 #include "copula/inference/select.hpp"
 #include "copula/plot/plot.hpp"
 #include "examples/cli/command.hpp"
+#include "examples/cli/copula_data.hpp"
 #include "examples/cli/text.hpp"
 #include "families/registry.hpp"
 
@@ -33,7 +34,7 @@ constexpr plot::Colour kGrey{0.55, 0.55, 0.55};
 constexpr plot::Colour kPoints{0.000, 0.447, 0.698};
 
 struct Options {
-  std::string path;
+  DataOptions data;
   std::string families = "all";
   std::string margins = "empirical";
   std::string format = "png";
@@ -54,12 +55,12 @@ struct Fitted {
   }
 };
 
-struct Sample {
-  Table table;
+struct FittedSample {
+  Sample data;
   Points u;
   std::vector<Fitted> fits;  ///< the best first
 
-  [[nodiscard]] const std::string& name(Index column) const { return table.names[static_cast<std::size_t>(column)]; }
+  [[nodiscard]] const std::string& name(Index column) const { return data.names[static_cast<std::size_t>(column)]; }
 };
 
 /// At most `most` of the rows 0 to n-1, evenly spread.
@@ -84,7 +85,8 @@ std::string count_text(Index used, Index n, const char* what) {
 }
 
 /// The normal scores of a pair of columns.
-LinePlot scatter(const Sample& sample, const Points& scores, Index across, Index up, const Axis& x, const Axis& y) {
+LinePlot scatter(const FittedSample& sample, const Points& scores, Index across, Index up, const Axis& x,
+                 const Axis& y) {
   Line points{.colour = kPoints, .width = 0, .marker = Marker::dot};
   for (Index row = 0; row < scores.rows(); ++row) {
     points.x.push_back(scores(row, across));
@@ -160,7 +162,7 @@ std::vector<Line> contours(const Copula& copula, double limit) {
   return lines;
 }
 
-LinePlot density(const Sample& sample, Index across, Index up, double limit, const Axis& x, const Axis& y) {
+LinePlot density(const FittedSample& sample, Index across, Index up, double limit, const Axis& x, const Axis& y) {
   const Fitted& best = sample.fits.front();
   LinePlot plot{.x = x, .y = y};
   plot.title = "\u03c4 = " + brdf::printed("%.3f", kendall_tau(sample.u.col(across), sample.u.col(up)));
@@ -172,7 +174,7 @@ LinePlot density(const Sample& sample, Index across, Index up, double limit, con
 }
 
 /// Below the diagonal the data, on it their histograms, above it the best family.
-Page pairs_page(const Sample& sample, const std::string& title) {
+Page pairs_page(const FittedSample& sample, const std::string& title) {
   const Index columns = std::min(sample.u.cols(), kMostColumns);
   const std::vector<Index> rows = spread(sample.u.rows(), kMostPoints);
   const Points scores = normal_scores(sample.u(rows, Eigen::all));
@@ -188,7 +190,7 @@ Page pairs_page(const Sample& sample, const std::string& title) {
   for (Index i = 0; i < columns; ++i) {
     for (Index j = 0; j < columns; ++j) {
       if (i == j) {
-        page.panels.emplace_back(histogram(sample.name(i), sample.table.values.col(i)));
+        page.panels.emplace_back(histogram(sample.name(i), sample.data.x.col(i)));
       } else if (i > j) {
         page.panels.emplace_back(scatter(sample, scores, j, i, axis(j), axis(i)));
       } else {
@@ -239,7 +241,7 @@ Line empirical_lambda(const Column& ordered) {
   return line;
 }
 
-LinePlot lambda_plot(const Column& ordered, const Sample& sample) {
+LinePlot lambda_plot(const Column& ordered, const FittedSample& sample) {
   LinePlot plot{.title = "Lambda function", .x = {.label = "t", .low = 0, .high = 1}, .y = {.label = "t \u2212 K(t)"}};
   plot.lines.push_back(empirical_lambda(ordered));
   const Column t = Column::LinSpaced(401, 0, 1);
@@ -251,7 +253,7 @@ LinePlot lambda_plot(const Column& ordered, const Sample& sample) {
   return plot;
 }
 
-Page kendall_page(const Sample& sample, const std::string& title) {
+Page kendall_page(const FittedSample& sample, const std::string& title) {
   const bool many = sample.u.cols() > 2 && sample.u.rows() > kMostCompared;
   Column ordered = joint_ranks(many ? Points(sample.u(spread(sample.u.rows(), kMostCompared), Eigen::all)) : sample.u);
   std::sort(ordered.begin(), ordered.end());
@@ -262,7 +264,7 @@ Page kendall_page(const Sample& sample, const std::string& title) {
           .panel_height = 400};
 }
 
-LinePlot quantile_plot(const Sample& sample, const Fitted& fitted, std::size_t index) {
+LinePlot quantile_plot(const FittedSample& sample, const Fitted& fitted, std::size_t index) {
   const int dim = fitted.copula->dim();
   Column ordered = squared_normal_scores(*fitted.copula, sample.u);
   std::sort(ordered.begin(), ordered.end());
@@ -281,7 +283,7 @@ LinePlot quantile_plot(const Sample& sample, const Fitted& fitted, std::size_t i
   return plot;
 }
 
-Page quantile_page(const Sample& sample, const std::string& title) {
+Page quantile_page(const FittedSample& sample, const std::string& title) {
   Page page{.title = title + ": Rosenblatt transforms of the fits", .panel_height = 330};
   for (std::size_t k = 0; k < sample.fits.size(); ++k) {
     page.panels.emplace_back(quantile_plot(sample, sample.fits[k], k));
@@ -289,13 +291,13 @@ Page quantile_page(const Sample& sample, const std::string& title) {
   return page;
 }
 
-Sample fit_sample(const Options& options) {
-  Sample sample{.table = read_csv(options.path), .u = {}, .fits = {}};
+FittedSample fit_sample(const Options& options) {
+  FittedSample sample{.data = read_sample(options.data), .u = {}, .fits = {}};
   const std::vector<const FamilyInfo*> chosen = parse_families(options.families);
-  sample.u = options.margins == "empirical" ? pseudo_observations(sample.table.values) : sample.table.values;
+  sample.u = options.margins == "empirical" ? pseudo_observations(sample.data.x) : sample.data.x;
   for (FitResult& result : fit_all(chosen, FitMethod::maximum_likelihood, sample.u)) {
     if (result.status == FitStatus::failed) {
-      std::cerr << "warning: " << result.family << " is left out: " << result.message << '\n';
+      std::cerr << "sklar: " << result.family << " is left out: " << result.message << '\n';
       continue;
     }
     const auto family =
@@ -303,15 +305,15 @@ Sample fit_sample(const Options& options) {
     CopulaPtr copula = (*family)->make(static_cast<int>(sample.u.cols()), result.theta);
     sample.fits.push_back({*family, std::move(result), std::move(copula)});
   }
-  if (sample.fits.empty()) throw std::runtime_error(options.path + ": no family could be fitted");
+  if (sample.fits.empty()) throw std::runtime_error(options.data.path + ": no family could be fitted");
   return sample;
 }
 
 void run(const Options& options, bool json) {
-  const Sample sample = fit_sample(options);
+  const FittedSample sample = fit_sample(options);
   const std::string title =
-      std::filesystem::path(options.path).filename().string() + ", " + std::to_string(sample.u.rows()) + " rows";
-  std::filesystem::create_directories(options.folder);
+      std::filesystem::path(options.data.path).filename().string() + ", " + std::to_string(sample.u.rows()) + " rows";
+  make_folder(options.folder);
   nlohmann::ordered_json document{{"best", sample.fits.front().family->name}};
   const auto write = [&](const char* name, const Page& page) {
     const std::filesystem::path path = options.folder / (name + ("." + options.format));
@@ -332,7 +334,7 @@ void add_copula_plot(CLI::App& parent, Common& common) {
       "plot",
       "draw data with families fitted to them: pairs with contours, Kendall plot and lambda function, quantiles");
   const auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->path, "a header, then one observation a line")->required();
+  add_data_options(*command, options->data);
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
   command->add_option("--margins", options->margins, "empirical: ranks; none: the columns are in (0,1) already")
       ->check(CLI::IsMember({"empirical", "none"}))

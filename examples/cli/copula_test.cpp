@@ -3,9 +3,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "copula/inference/csv.hpp"
 #include "copula/inference/goodness.hpp"
 #include "examples/cli/command.hpp"
+#include "examples/cli/copula_data.hpp"
 #include "examples/cli/material.hpp"
 #include "examples/cli/text.hpp"
 #include "families/registry.hpp"
@@ -14,7 +14,7 @@ namespace sklar::cli {
 namespace {
 
 struct Options {
-  std::string path;
+  DataOptions data;
   std::string family;
   GoodnessOptions test;
   std::string margins = "empirical";
@@ -51,12 +51,12 @@ void run(const Options& options, const Common& common) {
   test.bootstrap.seed = common.seed;
   test.bootstrap.progress = progress_bar("replicates");
   const FamilyInfo& family = families::resolve(options.family);
-  const GoodnessResult result = test_goodness(family, read_csv(options.path).values, test);
+  const GoodnessResult result = test_goodness(family, read_sample(options.data).x, test);
   if (result.fit.status == FitStatus::failed) {
     throw std::runtime_error(family.name + " could not be fitted: " + result.fit.message);
   }
   if (result.tied > 0) {
-    std::cerr << "warning: " << result.tied << " values have a tie in their column; samples of a copula have none, so "
+    std::cerr << "sklar: " << result.tied << " values have a tie in their column; samples of a copula have none, so "
               << "the p-value is only approximate\n";
   }
   write_output(options.output, common.json ? json_of(result, test) : csv_of(result, test));
@@ -68,7 +68,7 @@ void add_copula_test(CLI::App& parent, Common& common) {
   CLI::App* command = parent.add_subcommand("test", "test whether a family describes the columns of a CSV file");
   const auto options = std::make_shared<Options>();
   GoodnessOptions& test = options->test;
-  command->add_option("FILE", options->path, "a header, then one observation a line")->required();
+  add_data_options(*command, options->data);
   command->add_option("--family", options->family, kFamilyHelp)->required();
   const std::map<std::string, GoodnessStatistic> statistics = {{"cvm", GoodnessStatistic::cramer_von_mises},
                                                                {"rosenblatt", GoodnessStatistic::rosenblatt}};
@@ -78,9 +78,11 @@ void add_copula_test(CLI::App& parent, Common& common) {
                    "independence")
       ->transform(CLI::CheckedTransformer(statistics))
       ->default_str("cvm");
-  const std::map<std::string, FitMethod> methods = {
-      {"ml", FitMethod::maximum_likelihood}, {"ls", FitMethod::least_squares}, {"tau", FitMethod::tau_inversion}};
-  command->add_option("--method", test.method, "maximum likelihood, least squares on cells, inversion of tau")
+  const std::map<std::string, FitMethod> methods = {{"ml", FitMethod::maximum_likelihood},
+                                                    {"ls", FitMethod::least_squares},
+                                                    {"tau", FitMethod::tau_inversion},
+                                                    {"rho", FitMethod::rho_inversion}};
+  command->add_option("--method", test.method, "maximum likelihood, least squares on cells, inversion of tau or of rho")
       ->transform(CLI::CheckedTransformer(methods))
       ->default_str("ml");
   command->add_option("--margins", options->margins, "empirical: ranks; none: the columns are in (0,1) already")

@@ -37,7 +37,7 @@ TEST_F(CopulaPlot, LeavesOutWhatCannotBeFitted) {
   ASSERT_EQ(run("copula sample --family frank --theta 2 --dim 3 -n 50 -o data.csv").status, 0);
   const Result result = run("copula plot data.csv --families frank,frank@90");
   EXPECT_EQ(result.status, 0);
-  EXPECT_TRUE(result.err.starts_with("warning: frank@90 is left out: ")) << result.err;
+  EXPECT_TRUE(result.err.starts_with("sklar: frank@90 is left out: ")) << result.err;
   EXPECT_TRUE(read("out/kendall.png").starts_with("\x89PNG"));
 }
 

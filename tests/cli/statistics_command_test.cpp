@@ -49,7 +49,7 @@ TEST_F(CopulaTest, WarnsOfTiesAndRefusesBadInput) {
   write("tied.csv", "a,b\n1,2\n1,3\n2,5\n4,4\n5,6\n");
   const Result tied = run("copula test tied.csv --family frank --replicates 9");
   EXPECT_EQ(tied.status, 0);
-  EXPECT_TRUE(tied.err.starts_with("warning: 2 values have a tie")) << tied.err;
+  EXPECT_TRUE(tied.err.starts_with("sklar: 2 values have a tie")) << tied.err;
   write("constant.csv", "a,b\n1,2\n2,2\n3,2\n");
   expect_refused("copula test constant.csv --family frank --method tau -o out.csv", "frank could not be fitted");
   expect_refused("copula test clayton.csv --family frank --replicates 0", "replicates must be 1 or more, got 0");
