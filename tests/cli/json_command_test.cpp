@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "brdf/study/model_row.hpp"
 #include "brdf/study/results.hpp"
@@ -23,19 +24,25 @@ struct Field {
 };
 using Fields = std::map<std::string, Field>;  ///< by path
 
-/// The tables below the headings of the page, by command.
+/// The table below a heading, by each of the commands that it names.
 std::map<std::string, Fields> read_page() {
   std::map<std::string, Fields> page;
   std::istringstream lines(read_file(SKLAR_DOCS "/json.md"));
-  std::string command;
+  std::vector<std::string> commands;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("## ")) command = line.substr(3);
+    if (line.starts_with("## ")) {
+      commands.clear();
+      std::istringstream names(line.substr(3));
+      for (std::string name; std::getline(names >> std::ws, name, ',');) commands.push_back(name);
+    }
     if (!line.starts_with("| `")) continue;
     const std::size_t end = line.find("` | "), type_end = line.find(" |", end + 4);
     std::string path = line.substr(3, end - 3);
     const bool optional = path.ends_with('?');
     if (optional) path.pop_back();
-    page[command][path] = {line.substr(end + 4, type_end - end - 4), optional};
+    for (const std::string& command : commands) {
+      page[command][path] = {line.substr(end + 4, type_end - end - 4), optional};
+    }
   }
   return page;
 }
@@ -72,8 +79,9 @@ void expect_fields(const Fields& fields, const Json& value, const std::string& p
     }
     const std::string prefix = path.empty() ? "" : path + ".";
     for (const auto& [name, entry] : value.items()) {
-      ASSERT_TRUE(known.contains(name)) << path << " has a field " << name << ", which docs/json.md has not";
-      expect_fields(fields, entry, prefix + name);
+      const bool any = known.contains("*");
+      ASSERT_TRUE(any || known.contains(name)) << path << " has a field " << name << ", which docs/json.md has not";
+      expect_fields(fields, entry, prefix + (any ? "*" : name));
     }
   } else if (value.is_array()) {
     for (const Json& entry : value) expect_fields(fields, entry, path + "[]");
@@ -126,6 +134,15 @@ TEST_F(JsonCommand, CopulaCommandsPrintWhatThePageSays) {
   expect_output("sklar copula sample", "copula sample --family clayton --theta 2 --dim 3 -n 4");
   expect_output("sklar copula fit", "copula fit data.csv");
   expect_output("sklar copula fit", "copula fit data.csv --method tau --families frank,joe");
+  const std::string normal = "copula fit data.csv --families frank,gumbel --margins normal,normal ";
+  expect_output("sklar copula fit", normal + "--select holdout");
+  expect_output("sklar copula fit", normal + "--fit joint");
+  expect_output("sklar copula fit", "copula fit data.csv --families frank --confidence 0.9");
+  expect_output("sklar copula test", "copula test data.csv --family frank --replicates 20");
+  write("given.csv", "x1\n0.25\n0.5\n");
+  write("model.json", R"({"format":"sklar copula","version":1,"family":"frank","dim":2,"theta":[2],"margins":[]})");
+  expect_output("sklar copula predict", "copula predict model.json given.csv");
+  expect_output("sklar copula predict", "copula predict model.json given.csv -n 2");
   expect_output("sklar copula plot", "copula plot data.csv --families frank");
   expect_output("sklar copula derive", "copula derive 'exp(-theta*t)' --order 2");
   expect_output("sklar tradeoff", "tradeoff --families independence --rows 10");
@@ -152,13 +169,15 @@ TEST_F(JsonCommand, FitsPrintWhatThePageSays) {
   expect_output("sklar tradeoff --brdf", "tradeoff --brdf --families independence --slices 1 --max-bytes 400");
 }
 
-// What `brdf compare` prints, without the minutes that it takes.
+// What `brdf compare` and `brdf batch` print, without the minutes that it takes.
 TEST_F(JsonCommand, ComparisonsPrintWhatThePageSays) {
   const brdf::CompareRow row{.material = "a", .fit_s = 1, .theta = {{{{0.5}, {}}, {}, {{1, 2}}}}},
       failed{.error = "no"};
   expect_documented("sklar brdf compare", to_json(std::vector{row, failed}));
   const brdf::ModelRow model{.material = "a", .kind = "analytic", .model = "ggx", .bytes = 8, .log1p_mae = HUGE_VAL};
-  expect_documented("sklar brdf compare --models", to_json(std::vector{model, model}));
+  for (const std::string section : {"sklar brdf compare --models", "sklar brdf batch"}) {
+    expect_documented(section, to_json(std::vector{model, model}));
+  }
 }
 
 }  // namespace
