@@ -41,16 +41,6 @@ std::vector<int> rows_not_above(const PointsRef& u) {
   return counts;
 }
 
-Index tied_values(const PointsRef& x) {
-  Index tied = 0;
-  for (Index k = 0; k < x.cols(); ++k) {
-    for_each_run(x.col(k), sorted_order(x.col(k)), [&tied](std::size_t first, std::size_t last) {
-      if (last - first > 1) tied += static_cast<Index>(last - first);
-    });
-  }
-  return tied;
-}
-
 double measure(GoodnessStatistic statistic, const Copula& copula, const PointsRef& u) {
   return statistic == GoodnessStatistic::cramer_von_mises ? cramer_von_mises(copula, u)
                                                           : rosenblatt_distance(copula, u);
@@ -101,7 +91,7 @@ GoodnessResult test_goodness(const FamilyInfo& family, const PointsRef& x, const
   const Points u = seen(x);
   FitOptions fit_options = options.fit;
   GoodnessResult result{.fit = fit(family, options.method, u, Column(), fit_options)};
-  result.tied = tied_values(x);
+  for (const Index tied : tied_rows(x)) result.tied += tied;
   if (result.fit.status == FitStatus::failed) return result;
   const auto dim = static_cast<int>(u.cols());
   const CopulaPtr copula = family.make(dim, result.fit.theta);
