@@ -44,12 +44,12 @@ TEST_F(HelpCommand, ChoicesAreNames) {
 
 TEST_F(HelpCommand, BashCompletesCommandsOptionsAndChoices) {
   EXPECT_EQ(offered("sklar co"), "copula");
-  EXPECT_EQ(offered("sklar copula ''"), "table sample fit plot derive");
+  EXPECT_EQ(offered("sklar copula ''"), "table sample fit plot test predict derive");
   EXPECT_EQ(offered("sklar copula f"), "fit");
-  EXPECT_EQ(offered("sklar copula fit --m"), "--margins --method");
-  EXPECT_EQ(offered("sklar copula fit data.csv --method ''"), "ml ls tau");
+  EXPECT_EQ(offered("sklar copula fit --m"), "--missing --margins --method --model");
+  EXPECT_EQ(offered("sklar copula fit data.csv --method ''"), "ls ml rho tau");
   EXPECT_EQ(offered("sklar copula fit --method = t"), "tau") << "as bash splits --method=t";
-  EXPECT_EQ(offered("sklar copula fit --method ="), "ml ls tau");
+  EXPECT_EQ(offered("sklar copula fit --method ="), "ls ml rho tau");
   EXPECT_EQ(offered("sklar --vers"), "--version");
   EXPECT_EQ(offered("sklar brdf convert a.json b.bsdf --form s"), "spectra");
 }
@@ -64,7 +64,7 @@ TEST_F(HelpCommand, BashCompletesFilesWhereAnythingGoes) {
 TEST_F(HelpCommand, ManualHasEveryCommandAndOption) {
   const std::string page = run("--manual").out;
   const std::string fit = page.substr(page.find("\n.SS sklar copula fit\n"));
-  EXPECT_LT(fit.find("\n.TP\n\\fB\\-\\-method {ml,ls,tau}=ml\\fR\nmaximum likelihood"), fit.find("\n.SS ", 1)) << page;
+  EXPECT_LT(fit.find("\n.TP\n\\fB\\-\\-method {ls,ml,rho,tau}=ml\\fR\nmaximum likelihood"), fit.find("\n.SS ", 1)) << page;
   EXPECT_NE(page.find("\n\\fBsklar copula fit [OPTIONS] FILE\\fR\n"), std::string::npos) << page;
   const std::size_t json = page.find("\\-\\-json");
   EXPECT_NE(json, std::string::npos);
