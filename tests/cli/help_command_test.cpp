@@ -64,7 +64,8 @@ TEST_F(HelpCommand, BashCompletesFilesWhereAnythingGoes) {
 TEST_F(HelpCommand, ManualHasEveryCommandAndOption) {
   const std::string page = run("--manual").out;
   const std::string fit = page.substr(page.find("\n.SS sklar copula fit\n"));
-  EXPECT_LT(fit.find("\n.TP\n\\fB\\-\\-method {ls,ml,rho,tau}=ml\\fR\nmaximum likelihood"), fit.find("\n.SS ", 1)) << page;
+  EXPECT_LT(fit.find("\n.TP\n\\fB\\-\\-method {ls,ml,rho,tau}=ml\\fR\nmaximum likelihood"), fit.find("\n.SS ", 1))
+      << page;
   EXPECT_NE(page.find("\n\\fBsklar copula fit [OPTIONS] FILE\\fR\n"), std::string::npos) << page;
   const std::size_t json = page.find("\\-\\-json");
   EXPECT_NE(json, std::string::npos);
