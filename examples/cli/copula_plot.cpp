@@ -10,6 +10,7 @@
 #include "copula/file.hpp"
 #include "copula/inference/dependence.hpp"
 #include "copula/inference/diagnostics.hpp"
+#include "copula/inference/joint_fit.hpp"
 #include "copula/inference/select.hpp"
 #include "copula/plot/plot.hpp"
 #include "examples/cli/command.hpp"
@@ -57,6 +58,7 @@ struct Fitted {
 
 struct FittedSample {
   Sample data;
+  std::vector<MarginFit> margins;  ///< none where the columns are in (0,1) already
   Points u;
   std::vector<Fitted> fits;  ///< the best first
 
@@ -95,6 +97,11 @@ LinePlot scatter(const FittedSample& sample, const Points& scores, Index across,
   return {.title = sample.name(up) + " against " + sample.name(across), .x = x, .y = y, .lines = {points}};
 }
 
+/// Whether a logarithmic axis shows positive values better.
+bool is_skewed(const Column& sorted) {
+  return sorted[0] > 0 && sorted.mean() > 2 * sorted[sorted.size() / 2];
+}
+
 /// About 2 n^(1/3) bins (Rice); of logarithms for positive values whose mean is more than twice their median.
 LinePlot histogram(const std::string& name, const ColumnRef& values) {
   constexpr double kMostBins = 60;
@@ -102,7 +109,7 @@ LinePlot histogram(const std::string& name, const ColumnRef& values) {
   std::sort(sorted.begin(), sorted.end());
   const double lowest = sorted[0];
   const double highest = sorted[sorted.size() - 1];
-  const bool logarithmic = lowest > 0 && sorted.mean() > 2 * sorted[sorted.size() / 2];
+  const bool logarithmic = is_skewed(sorted);
   const double low = logarithmic ? std::log(lowest) : lowest;
   const double range = (logarithmic ? std::log(highest) : highest) - low;
   const auto bins =
@@ -283,8 +290,36 @@ LinePlot quantile_plot(const FittedSample& sample, const Fitted& fitted, std::si
   return plot;
 }
 
+/// Values of a column against the quantiles of its margin.
+LinePlot margin_plot(const std::string& name, const Column& values, const MarginFit& margin) {
+  Column ordered = values;
+  std::sort(ordered.begin(), ordered.end());
+  Line points{.colour = kPoints, .width = 0, .marker = Marker::dot};
+  const auto distribution = share(margin.margin);
+  for (const Index i : shown_of_ordered(ordered.size())) {
+    points.x.push_back(distribution->quantile((static_cast<double>(i) + 0.5) / static_cast<double>(ordered.size())));
+    points.y.push_back(ordered[i]);
+  }
+  const double low = std::min(points.x.back(), points.y.back()), high = std::max(points.x.front(), points.y.front());
+  const auto scale = low > 0 && is_skewed(ordered) ? plot::Scale::logarithmic : plot::Scale::linear;
+  const Axis both = plot::fitted({.scale = scale}, {low, high});
+  LinePlot plot{.title = name, .x = both, .y = both};
+  plot.x.label = "quantile of the fitted " + std::string(to_text(margin.spec.kind)) + " margin";
+  plot.y.label = name;
+  plot.lines.push_back({.x = {both.low, both.high}, .y = {both.low, both.high}, .colour = kGrey, .dashed = true});
+  plot.lines.push_back(std::move(points));
+  return plot;
+}
+
+/// Margins that have a density, then the families.
 Page quantile_page(const FittedSample& sample, const std::string& title) {
   Page page{.title = title + ": Rosenblatt transforms of the fits", .panel_height = 330};
+  for (std::size_t k = 0; k < sample.margins.size(); ++k) {
+    if (sample.margins[k].spec.kind == MarginKind::empirical) continue;
+    page.title = title + ": margins, and Rosenblatt transforms of the fits";
+    const auto column = static_cast<Index>(k);
+    page.panels.emplace_back(margin_plot(sample.name(column), sample.data.x.col(column), sample.margins[k]));
+  }
   for (std::size_t k = 0; k < sample.fits.size(); ++k) {
     page.panels.emplace_back(quantile_plot(sample, sample.fits[k], k));
   }
@@ -292,9 +327,11 @@ Page quantile_page(const FittedSample& sample, const std::string& title) {
 }
 
 FittedSample fit_sample(const Options& options) {
-  FittedSample sample{.data = read_sample(options.data), .u = {}, .fits = {}};
+  FittedSample sample{.data = read_sample(options.data), .margins = {}, .u = {}, .fits = {}};
   const std::vector<const FamilyInfo*> chosen = parse_families(options.families);
-  sample.u = options.margins == "empirical" ? pseudo_observations(sample.data.x) : sample.data.x;
+  const std::vector<MarginSpec> specs = margins_for(options.margins, sample.data);
+  if (!specs.empty()) sample.margins = fit_margins(specs, sample.data.x);
+  sample.u = specs.empty() ? sample.data.x : uniforms_of(sample.margins, sample.data.x);
   for (FitResult& result : fit_all(chosen, FitMethod::maximum_likelihood, sample.u)) {
     if (result.status == FitStatus::failed) {
       std::cerr << "sklar: " << result.family << " is left out: " << result.message << '\n';
@@ -336,8 +373,8 @@ void add_copula_plot(CLI::App& parent, Common& common) {
   const auto options = std::make_shared<Options>();
   add_data_options(*command, options->data);
   command->add_option("--families", options->families, kFamiliesHelp)->capture_default_str();
-  command->add_option("--margins", options->margins, "empirical: ranks; none: the columns are in (0,1) already")
-      ->check(CLI::IsMember({"empirical", "none"}))
+  command->add_option("--margins", options->margins, kMarginsHelp)
+      ->check(CLI::Validator([](const std::string& text) { return check_margins(text); }, ""))
       ->capture_default_str();
   command->add_option("--out", options->folder, "the folder, made where it is missing")->capture_default_str();
   command->add_option("--format", options->format, "of the files pairs, kendall and quantiles")
