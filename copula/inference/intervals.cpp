@@ -245,8 +245,8 @@ ConfidenceIntervals by_bootstrap(const FamilyInfo& family, const FitResult& resu
   std::erase_if(fits, [](const FitResult& one) { return one.status == FitStatus::failed; });
   require_replicates(fits.size(), options.confidence);
   const auto over = [&fits](const auto& value) {
-    std::vector<double> values;
-    for (const FitResult& one : fits) values.push_back(value(one));
+    std::vector<double> values(fits.size());
+    std::transform(fits.begin(), fits.end(), values.begin(), value);
     return values;
   };
   ConfidenceIntervals intervals = none(result, "");

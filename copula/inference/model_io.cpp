@@ -150,8 +150,8 @@ std::vector<Part> parts_from(const Json& json, int dim, std::string_view source,
 
 void require_weights(const std::vector<Part>& parts) {
   if (parts.empty()) throw std::invalid_argument("a model needs one component or more, got none");
-  std::vector<double> weights;
-  for (const Part& part : parts) weights.push_back(part.component.weight);
+  std::vector<double> weights(parts.size());
+  std::transform(parts.begin(), parts.end(), weights.begin(), [](const Part& part) { return part.component.weight; });
   Mixture::require_weights(weights, parts.size());
 }
 
@@ -204,7 +204,7 @@ std::string title_of(const CopulaModel& model) {
   return "Mixture of " + names;
 }
 
-FamilyInfo family_of_model(ReadModel read, std::string_view source) {
+FamilyInfo family_of_model(ReadModel&& read, std::string_view source) {
   auto& [model, parts] = read;
   model.margins.clear();
   if (model.name.empty()) model.name = source;

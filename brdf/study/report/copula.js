@@ -51,7 +51,8 @@ function fill_copula() {
   const rows = copula_rows();
   element('copula').hidden = rows.length === 0;
   if (rows.length === 0) return;
-  fill_select(element('copula-model'), rows.map(({name}) => [name, name]), rows[0].name);
+  const first = rows.find((row) => row.curves.copulas.some(({tau}) => tau !== 0)) ?? rows[0];
+  fill_select(element('copula-model'), rows.map(({name}) => [name, name]), first.name);
   fill_copula_places();
 }
 
