@@ -32,7 +32,7 @@ JointDistribution reordered(const std::shared_ptr<const JointDistribution>& join
   return {std::move(margins), copula};
 }
 
-Prediction::Prediction(std::shared_ptr<const JointDistribution> joint, std::vector<int> given)
+Prediction::Prediction(const std::shared_ptr<const JointDistribution>& joint, std::vector<int> given)
     : given_(std::move(given)) {
   require_given(joint->dim(), given_);
   for (int column = 0; column < joint->dim(); ++column) {

@@ -22,7 +22,7 @@ class Prediction {
  public:
   /// @param given   columns in any order, each once, none or more but not all.
   /// @throws std::invalid_argument for other columns, and as reordered.
-  Prediction(std::shared_ptr<const JointDistribution> joint, std::vector<int> given);
+  Prediction(const std::shared_ptr<const JointDistribution>& joint, std::vector<int> given);
 
   [[nodiscard]] const std::vector<int>& given() const noexcept { return given_; }
   [[nodiscard]] const std::vector<int>& missing() const noexcept { return missing_; }  ///< the others, rising
