@@ -46,7 +46,7 @@ std::vector<int> given_columns(const Table& table, const std::string& path, cons
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
       std::string known;
-      for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
+      for (const std::string& one : names) known.append(known.empty() ? "" : ", ").append(one);
       throw FileError(path, "the model has no column '" + name + "'; its columns: " + known);
     }
     given.push_back(static_cast<int>(found - names.begin()));
