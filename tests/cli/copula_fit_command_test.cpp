@@ -153,8 +153,9 @@ TEST_F(CopulaFitMargins, RefusesWhatDoesNotFit) {
 TEST_F(CopulaFitSelect, OrdersByTheCriterion) {
   ASSERT_EQ(run("copula sample --family clayton --tau 0.4 -n 300 -o data.csv").status, 0);
   const std::string fit = "copula fit data.csv --families frank,clayton,independence ";
+  const std::string select_by = fit + "--json --select ";
   for (const std::string select : {"aic", "bic", "cv", "holdout"}) {
-    const Result result = run(fit + "--json --select " + select);
+    const Result result = run(std::string(select_by).append(select));
     ASSERT_EQ(result.status, 0) << result.err;
     const json document = json::parse(result.out);
     EXPECT_EQ(document["best"], "clayton") << select;

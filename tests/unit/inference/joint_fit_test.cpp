@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "copula/inference/joint.hpp"
@@ -19,8 +20,8 @@ constexpr MarginSpec kRanks{.kind = MarginKind::empirical};
 /// n rows of a family with margins.
 Points sample_of(const std::string& family, const Theta& theta, const std::vector<StoredMarginal>& margins, Index n,
                  std::uint64_t seed) {
-  std::vector<std::shared_ptr<const Marginal>> shared;
-  for (const StoredMarginal& margin : margins) shared.push_back(share(margin));
+  std::vector<std::shared_ptr<const Marginal>> shared(margins.size());
+  std::transform(margins.begin(), margins.end(), shared.begin(), share);
   const auto dim = static_cast<int>(margins.size());
   Rng rng(seed);
   return JointDistribution(std::move(shared), families::find(family).make(dim, theta)).sample(n, rng);

@@ -31,6 +31,7 @@ std::vector<CopulaPtr> copulas() {
 /// Margins that differ, on [0, 4].
 std::shared_ptr<const JointDensity> joint_of(const CopulaPtr& copula) {
   std::vector<std::shared_ptr<const DensityMarginal>> margins;
+  margins.reserve(static_cast<std::size_t>(copula->dim()));
   for (int i = 0; i < copula->dim(); ++i) {
     margins.push_back(
         std::make_shared<HistogramMarginal>(std::vector<double>{0, 1, 4}, std::vector<double>{1.0 + i, 2}));
