@@ -56,7 +56,8 @@ Json of_refined(const RefinedBrdf& brdf) {
 std::string pair_density_json(const Copula& copula, int nodes) {
   Points u(Index{nodes} * nodes, 2);
   for (Index n = 0; n < u.rows(); ++n) {
-    u.row(n) << (static_cast<double>(n / nodes) + 0.5) / nodes, (static_cast<double>(n % nodes) + 0.5) / nodes;
+    const Index i = n / nodes, j = n % nodes;
+    u.row(n) << (static_cast<double>(i) + 0.5) / nodes, (static_cast<double>(j) + 0.5) / nodes;
   }
   const Column density = copula.log_conditional_pdf(u).exp();  // the margin of the first coordinate is uniform
   Json rows = Json::array();
