@@ -65,7 +65,7 @@ Json write_bsdf(const Options& options) {
 }
 
 /// A source of code: evaluation_code of a model, and its sampler where it is asked for.
-using Source = std::string (*)(brdf::ModelCode code, const brdf::BrdfPtr& model, const std::string& material);
+using Source = std::string (*)(const brdf::ModelCode& code, const brdf::BrdfPtr& model, const std::string& material);
 
 Json write_source(const Options& options, Source source) {
   if (!brdf::is_model_path(options.in)) throw FileError(options.in, "written as source are models, .json or .sklar");
@@ -84,19 +84,21 @@ Json write_source(const Options& options, Source source) {
 }
 
 Json write_glsl(const Options& options) {
-  return write_source(options, [](brdf::ModelCode code, const brdf::BrdfPtr& model, const std::string& material) {
-    return to_glsl(with_sampler(std::move(code), brdf::ConditionalSampler(*model)), material);
-  });
+  return write_source(options,
+                      [](const brdf::ModelCode& code, const brdf::BrdfPtr& model, const std::string& material) {
+                        return to_glsl(with_sampler(code, brdf::ConditionalSampler(*model)), material);
+                      });
 }
 
 Json write_cpp(const Options& options) {
-  return write_source(options, [](brdf::ModelCode code, const brdf::BrdfPtr& model, const std::string& material) {
-    return to_cpp_header(with_sampler(std::move(code), brdf::ConditionalSampler(*model)), material);
-  });
+  return write_source(options,
+                      [](const brdf::ModelCode& code, const brdf::BrdfPtr& model, const std::string& material) {
+                        return to_cpp_header(with_sampler(code, brdf::ConditionalSampler(*model)), material);
+                      });
 }
 
 Json write_explorer(const Options& options) {
-  return write_source(options, [](brdf::ModelCode code, const brdf::BrdfPtr&, const std::string& material) {
+  return write_source(options, [](const brdf::ModelCode& code, const brdf::BrdfPtr&, const std::string& material) {
     return to_brdf_explorer(code, material);
   });
 }
