@@ -41,15 +41,16 @@ Rgb radiance(const Brdf& sphere, const Brdf& floor, Vec3 origin, Vec3 direction,
 
 void render(const Brdf& sphere, Image& image, int paths) {
   const Lambert floor(Rgb(0.4, 0.4, 0.4));
-  std::vector<std::jthread> rows;
+  std::vector<std::jthread> rows(static_cast<std::size_t>(image.height));
   for (int row = 0; row < image.height; ++row) {
-    rows.emplace_back([&, row] {
+    rows[static_cast<std::size_t>(row)] = std::jthread([&, row] {
       sklar::Rng rng(static_cast<std::uint64_t>(row));
       for (int path = 0; path < image.width * paths; ++path) {
-        const double x = (path / paths + sklar::uniform(rng) - image.width / 2.0) / image.height;
+        const int column = path / paths;
+        const double x = (column + sklar::uniform(rng) - image.width / 2.0) / image.height;
         const double y = (image.height / 2.0 - row - sklar::uniform(rng)) / image.height;
         const Rgb light = radiance(sphere, floor, Vec3(0, 0.3, 4), Vec3(x, y - 0.075, -1).normalized(), rng);
-        for (int c = 0; c < 3; ++c) image.at(row, path / paths, c) += static_cast<float>(light[c] / paths);
+        for (int c = 0; c < 3; ++c) image.at(row, column, c) += static_cast<float>(light[c] / paths);
       }
     });
   }
