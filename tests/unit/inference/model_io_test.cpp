@@ -182,7 +182,7 @@ TEST(ModelIo, ModelsInModelsAreEachReadOnce) {
   std::string json = R"({"format":"sklar copula","version":1,"dim":2,"family":"frank","theta":[2],"margins":[]})";
   constexpr int kModels = 40;  // read twice by each around it, the innermost would be read 2^40 times
   for (int n = 0; n < kModels; ++n) {
-    json = R"({"format":"sklar copula","version":2,"dim":2,"theta":[],"margins":[],"family":)" + json + "}";
+    json.insert(0, R"({"format":"sklar copula","version":2,"dim":2,"theta":[],"margins":[],"family":)").append("}");
   }
   const CopulaModel model = parse_model(json, "model.json", families::all());
   const Points u = Points::Constant(1, 2, 0.3);
