@@ -75,6 +75,7 @@ TEST(SymbolicExpression, RootsOfAnyOrderAreExactOrStay) {
 TEST(SymbolicExpression, IsSharedBetweenThreads) {
   std::vector<Expression> results(8);
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (Expression& result : results) {
     threads.emplace_back([&result] {
       for (int i = 0; i < 20; ++i) {
@@ -252,8 +253,9 @@ class Program {
       for (const int order : {0, 1, 4}) {
         const std::string arguments =
             none ? "(0.7)" : "(0.7, " + std::string(two ? "1.25, " : "") + to_text(theta) + ")";
+        const std::string call = space + "::dpsi_" + std::to_string(order);
         add("namespace " + space + " {\n" + without_include(derive(generator.psi, order, Language::cpp)) + "}\n",
-            space + "::dpsi_" + std::to_string(order) + arguments, value(generator.psi, order, theta));
+            call + arguments, value(generator.psi, order, theta));
       }
     }
     add(without_include(to_cpp(parse("v1*exp(-double)/3 + f*sqrt(std)"), "f", {"v1", "double", "f", "std", "unused"})),
