@@ -4,8 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/data/fit_weight.hpp"
-#include "brdf/geometry/coordinates.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -32,7 +32,7 @@ void collect(const MeasuredTable& table, int i, int first_j, int first_k, std::v
       const auto other = static_cast<std::size_t>(Grid::index(i, j, Grid::phi_d - 1 - k));
       const int valid = table.valid[one] + table.valid[other];
       if (valid == 0) continue;
-      const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+      const DirectionPair pair = cell_directions(i, j, k);
       const double counts = fit_weight(pair);
       if (counts > 0) block.push_back({pair, one, other, valid * counts});
     }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "brdf/geometry/coordinates.hpp"
+#include "brdf/data/cell_directions.hpp"
 
 namespace sklar::brdf {
 
@@ -18,7 +18,7 @@ std::vector<FitCell> spread_cells(const MeasuredTable& table, std::size_t about)
     const auto n = static_cast<std::size_t>(cell);
     if (table.valid[n] == 0 || count++ % step != 0) continue;
     const int k = cell % Grid::phi_d, j = cell / Grid::phi_d % Grid::theta_d, i = cell / (Grid::phi_d * Grid::theta_d);
-    const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+    const DirectionPair pair = cell_directions(i, j, k);
     if (!(pair.wi.z() > 0 && pair.wo.z() > 0)) continue;
     cells.push_back({pair.wo, pair.wi, {table.values[0][n], table.values[1][n], table.values[2][n]}});
   }

@@ -7,6 +7,7 @@
 
 #include "brdf/basis/fill.hpp"
 #include "brdf/basis/fit_cells.hpp"
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/geometry/coordinates.hpp"
 
 namespace sklar::brdf {
@@ -175,8 +176,7 @@ class Transform {
 
   [[nodiscard]] double weight(const Cell& cell) const {
     if (valid_[static_cast<std::size_t>(Grid::index(cell[0], cell[1], cell[2]))] == 0) return 0;
-    const DirectionPair pair =
-        directions({Grid::theta_h_centre(cell[0]), Grid::theta_d_centre(cell[1]), Grid::phi_d_centre(cell[2])});
+    const DirectionPair pair = cell_directions(cell[0], cell[1], cell[2]);
     return log_weight(value(cell), std::max(pair.wi.z(), 0.0) * std::max(pair.wo.z(), 0.0)).mean();
   }
 

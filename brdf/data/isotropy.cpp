@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "brdf/data/anisotropic_brdf.hpp"
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/data/tabulate.hpp"
 
 namespace sklar::brdf {
@@ -20,10 +21,10 @@ MeasuredTable fill(std::string name, Provenance provenance, const Value& value) 
   tbb::parallel_for(0, Grid::theta_h, [&](int i) {
     for (int j = 0; j < Grid::theta_d; ++j) {
       for (int k = 0; k < Grid::phi_d; ++k) {
-        const HalfDifference at{Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)};
-        const DirectionPair pair = directions(at);
+        const DirectionPair pair = cell_directions(i, j, k);
         if (!(pair.wi.z() > 0 && pair.wo.z() > 0)) continue;
-        const AnisotropicTableBrdf::Reading mean = value(at);
+        const AnisotropicTableBrdf::Reading mean =
+            value(HalfDifference{Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
         if (mean.coverage == 0) continue;
         const auto cell = static_cast<std::size_t>(Grid::index(i, j, k));
         for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/data/isotropy.hpp"
 #include "brdf/data/rgl.hpp"
 #include "brdf/data/tabulate.hpp"
@@ -17,8 +18,8 @@ double asymmetry_of(const Rgb& forward, const Rgb& backward) {
 }
 
 /// Fills one cell. @return asymmetry_of its two values.
-double fill_cell(const RglMaterial& material, const HalfDifference& centre, std::size_t cell, MeasuredTable& table) {
-  const auto [wi, wo] = directions(centre);
+double fill_cell(const RglMaterial& material, const DirectionPair& centre, std::size_t cell, MeasuredTable& table) {
+  const auto [wi, wo] = centre;
   if (!(wi.z() > 0 && wo.z() > 0)) return -1;
   const Rgb forward = material.f_one_way(wo, wi);
   const Rgb backward = material.f_one_way(wi, wo);
@@ -43,8 +44,7 @@ MeasuredTable resample(const RglMaterial& material, std::string name) {
     for (int j = 0; j < Grid::theta_d; ++j) {
       for (int k = 0; k < Grid::phi_d; ++k) {
         const auto cell = static_cast<std::size_t>(Grid::index(i, j, k));
-        const HalfDifference centre{Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)};
-        asymmetry[cell] = fill_cell(material, centre, cell, table);
+        asymmetry[cell] = fill_cell(material, cell_directions(i, j, k), cell, table);
       }
     }
   });

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/data/colour.hpp"
 #include "brdf/geometry/coordinates.hpp"
 #include "brdf/geometry/frame.hpp"
@@ -228,10 +229,10 @@ MeasuredTable tabulate_scattered(std::span<const ScatteredSample> samples, std::
   table.valid.assign(Grid::cells, 0);
   for (std::vector<double>& plane : table.values) plane.assign(Grid::cells, 0.0);
   tbb::parallel_for(0, Grid::theta_h * Grid::theta_d, [&](int row) {
+    const int i = row / Grid::theta_d, j = row % Grid::theta_d;
     for (int k = 0; k < Grid::phi_d / 2; ++k) {
-      const HalfDifference centre{Grid::theta_h_centre(row / Grid::theta_d), Grid::theta_d_centre(row % Grid::theta_d),
-                                  Grid::phi_d_centre(k)};
-      const DirectionPair pair = directions(centre);
+      const HalfDifference centre{Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)};
+      const DirectionPair pair = cell_directions(i, j, k);
       Rgb value;
       if (!(pair.wi.z() > 0 && pair.wo.z() > 0)) continue;
       if (!interpolate(neighbourhood, samples, point_of(centre), value)) continue;

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "brdf/geometry/coordinates.hpp"
+#include "brdf/data/cell_directions.hpp"
 
 namespace sklar::brdf {
 
@@ -18,8 +18,7 @@ MeasuredTable tabulate(const Brdf& model, std::string name, Provenance provenanc
   tbb::parallel_for(0, Grid::theta_h, [&](int i) {
     for (int j = 0; j < Grid::theta_d; ++j) {
       for (int k = 0; k < Grid::phi_d; ++k) {
-        const DirectionPair pair =
-            directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+        const DirectionPair pair = cell_directions(i, j, k);
         if (!(pair.wi.z() > 0 && pair.wo.z() > 0)) continue;
         const auto cell = static_cast<std::size_t>(Grid::index(i, j, k));
         const Rgb value = model.eval(pair.wo, pair.wi);

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/data/fit_weight.hpp"
 #include "brdf/geometry/coordinates.hpp"
 #include "brdf/model/warp.hpp"
@@ -30,7 +31,7 @@ struct Filler {
     const auto one = static_cast<std::size_t>(Grid::index(i, j, k));
     const auto other = static_cast<std::size_t>(Grid::index(i, j, Grid::phi_d - 1 - k));
     const int valid = table.valid[one] + table.valid[other];
-    const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+    const DirectionPair pair = cell_directions(i, j, k);
     const double counts = fit_weight(pair);
     if (valid == 0 || counts == 0) return 0;
     const Warped w = warp(structure.width, pair.wo, pair.wi);

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "brdf/geometry/coordinates.hpp"
+#include "brdf/data/cell_directions.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -22,9 +22,7 @@ void for_each_cell(int i, const std::vector<std::uint8_t>& wanted, Visit visit) 
     for (int k = 0; k < Grid::phi_d; ++k) {
       const auto cell = static_cast<std::size_t>(Grid::index(i, j, k));
       if (wanted[cell] == 0) continue;
-      visit(cell, directions({.theta_h = Grid::theta_h_centre(i),
-                              .theta_d = Grid::theta_d_centre(j),
-                              .phi_d = Grid::phi_d_centre(k)}));
+      visit(cell, cell_directions(i, j, k));
     }
   }
 }

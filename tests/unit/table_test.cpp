@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "brdf/data/cell_directions.hpp"
 #include "brdf/data/table_brdf.hpp"
 #include "brdf/geometry/frame.hpp"
 #include "copula/random.hpp"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // Coordinates of a centre come back to about 1e-12 cells at worst (theta_h near 90 degrees), and values lie in [0,2].
 constexpr double kCentre = 1e-11;
+constexpr double kDirection = 1e-15;  ///< of sums of two products
 
 bool above_horizon(int i, int j, int k) {
   const DirectionPair pair = directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
@@ -63,6 +65,20 @@ TEST(Grid, AQuarterOfTheCellsIsBelowTheHorizon) {
     }
   }
   EXPECT_NEAR(100.0 * below / Grid::cells, 24.8, 0.05);
+}
+
+TEST(CellDirections, AreThoseAtTheCentres) {
+  for (int i = 0; i < Grid::theta_h; i += 4) {
+    for (int j = 0; j < Grid::theta_d; ++j) {
+      for (int k = 0; k < Grid::phi_d; ++k) {
+        const DirectionPair expected =
+            directions({Grid::theta_h_centre(i), Grid::theta_d_centre(j), Grid::phi_d_centre(k)});
+        const DirectionPair pair = cell_directions(i, j, k);
+        ASSERT_LE((pair.wi - expected.wi).norm() + (pair.wo - expected.wo).norm(), kDirection)
+            << i << ' ' << j << ' ' << k;
+      }
+    }
+  }
 }
 
 TEST(TableBrdf, ReproducesCellCentres) {
