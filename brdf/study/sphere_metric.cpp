@@ -1,6 +1,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,14 +23,26 @@ constexpr double kDisk = 0.995;         ///< of x^2 + y^2
 constexpr double kLowestCosine = 0.01;  ///< of both directions
 constexpr double kPeakQuantile = 0.995;
 
-/// Lights of a block have nearly the same theta_d, half the angle to the viewer: what a block of pixels reads of a
-/// table then stays in the cache. The sum at a pixel runs over the lights in order whatever the blocks.
-constexpr std::size_t kLightBlock = 64;
-constexpr std::size_t kPixelBlock = 512;
+/// Lights follow each other by theta_d, half the angle to the viewer: what a block of pixels reads of a table for some
+/// of them stays in the cache. The sum at a pixel runs over the lights in order whatever the blocks.
+constexpr Eigen::Index kPixelBlock = 512;
 
+/// The viewer is at z. The half vector h and theta_d are the same at all pixels; a normal's coordinates in the frame
+/// (x, y, h), where y = h x (wi - wo) / |wi - wo| and x = h x y, are sin(theta_h) cos(phi_d), sin(theta_h) sin(phi_d)
+/// and cos(theta_h).
 struct Light {
   Vec3 direction;
   double power;  ///< radiance times solid angle
+  Eigen::Matrix3d frame;
+  Between theta_d;
+
+  Light(const Vec3& wi, double watts) : direction(wi), power(watts) {
+    const Vec3 wo = Vec3::UnitZ();
+    const Vec3 half = (wi + wo).normalized();
+    const Vec3 across = half.cross(wi - wo).normalized();
+    frame << half.cross(across), across, half;
+    theta_d = cell_position(half_difference(wo, wi)).theta_d;
+  }
 };
 
 double radiance(const Vec3& light) {
@@ -48,25 +61,26 @@ std::vector<Light> lights() {
     const double azimuth = pi * (1 + std::sqrt(5.0)) * (k + 0.5);
     const double r = std::sqrt(1 - z * z);
     const Vec3 direction(r * std::cos(azimuth), r * std::sin(azimuth), z);
-    all.push_back({direction, radiance(direction) * 4 * pi / kLights});
+    all.emplace_back(direction, radiance(direction) * 4 * pi / kLights);
   }
   return all;
 }
 
-std::vector<Vec3> disk_normals() {
-  std::vector<Vec3> normals;
+/// Rows: normals.
+Eigen::Matrix3Xd disk_normals() {
+  std::vector<double> coordinates;
   for (int i = 0; i < kSize; ++i) {
     for (int j = 0; j < kSize; ++j) {
       const double x = (j + 0.5) / (kSize / 2.0) - 1;
       const double y = 1 - (i + 0.5) / (kSize / 2.0);
       const double square = x * x + y * y;
-      if (square < kDisk) normals.emplace_back(x, y, std::sqrt(1 - square));
+      if (square < kDisk) coordinates.insert(coordinates.end(), {x, y, std::sqrt(1 - square)});
     }
   }
-  return normals;
+  return Eigen::Map<const Eigen::Matrix3Xd>(coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size()) / 3);
 }
 
-using Cell = std::array<double, 3>;
+using Cell = Eigen::Array4d;  ///< the last is 0: whole vector registers
 
 /// A table with the channels of a cell side by side: one cache line serves all three.
 std::vector<Cell> interleave(const CellValues& values) {
@@ -77,7 +91,7 @@ std::vector<Cell> interleave(const CellValues& values) {
     }
   }
   std::vector<Cell> cells(Grid::cells);
-  for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = {values[0][n], values[1][n], values[2][n]};
+  for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = {values[0][n], values[1][n], values[2][n], 0};
   return cells;
 }
 
@@ -99,27 +113,32 @@ struct Stencil {
   }
 
   [[nodiscard]] Rgb read(const std::vector<Cell>& table) const {
-    Cell sum{};
-    for (std::size_t n = 0; n < 8; ++n) {
-      const Cell& value = table[static_cast<std::size_t>(cell[n])];
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight[n] * value[c];
-    }
-    return {sum[0], sum[1], sum[2]};
+    Cell sum = Cell::Zero();
+    for (std::size_t n = 0; n < 8; ++n) sum += weight[n] * table[static_cast<std::size_t>(cell[n])];
+    return sum.head<3>();
   }
 };
 
-/// Adds the light of a block to one pixel of every table's sphere.
-void add(const Vec3& normal, std::span<const Light> block, const std::vector<std::vector<Cell>>& tables,
-         std::size_t pixel, std::vector<SpherePixels>& spheres) {
-  const Frame frame(normal);
-  const Vec3 wo = frame.to_local(Vec3::UnitZ());
-  const auto row = static_cast<Eigen::Index>(pixel);
-  for (const Light& light : block) {
-    const Vec3 wi = frame.to_local(light.direction);
-    if (!(wi.z() > kLowestCosine && wo.z() > kLowestCosine)) continue;
-    const Stencil stencil(cell_position(half_difference(wo, wi)));
+/// theta_h and phi_d of a normal in a light's frame; exchanging the directions turns the normal by pi about h.
+HalfDifference coordinates_in(const Vec3& normal) {
+  const double turn = normal.y() < 0 ? -1.0 : 1.0;
+  return {.theta_h = polar_angle(normal),
+          .theta_d = 0,
+          .phi_d = std::atan2(std::abs(normal.y()), turn * normal.x())};
+}
+
+/// Adds a light to a block of pixels of every table's sphere.
+void add(const Light& light, const Eigen::Matrix3Xd& normals, const std::vector<std::vector<Cell>>& tables,
+         Eigen::Index first, std::vector<SpherePixels>& spheres) {
+  const Eigen::Matrix3Xd turned = light.frame.transpose() * normals;
+  for (Eigen::Index n = 0; n < normals.cols(); ++n) {
+    const double cos_i = light.direction.dot(normals.col(n));
+    if (!(cos_i > kLowestCosine && normals(2, n) > kLowestCosine)) continue;
+    CellPosition position = cell_position(coordinates_in(turned.col(n)));
+    position.theta_d = light.theta_d;
+    const Stencil stencil(position);
     for (std::size_t t = 0; t < tables.size(); ++t) {
-      spheres[t].row(row) += (light.power * wi.z() * stencil.read(tables[t])).transpose();
+      spheres[t].row(first + n) += (light.power * cos_i * stencil.read(tables[t])).transpose();
     }
   }
 }
@@ -139,16 +158,13 @@ std::vector<SpherePixels> sphere_pixels(std::span<const CellValues* const> table
   std::vector<std::vector<Cell>> cells;
   for (const CellValues* table : tables) cells.push_back(interleave(*table));
   const std::vector<Light> all = lights();
-  const std::vector<Vec3> normals = disk_normals();
-  const auto count = static_cast<Eigen::Index>(normals.size());
-  std::vector<SpherePixels> pixels(tables.size(), SpherePixels::Zero(count, 3));
-  const auto work = [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t first = 0; first < all.size(); first += kLightBlock) {
-      const std::span block(all.data() + first, std::min(kLightBlock, all.size() - first));
-      for (std::size_t n = range.begin(); n != range.end(); ++n) add(normals[n], block, cells, n, pixels);
-    }
+  const Eigen::Matrix3Xd normals = disk_normals();
+  std::vector<SpherePixels> pixels(tables.size(), SpherePixels::Zero(normals.cols(), 3));
+  const auto work = [&](const tbb::blocked_range<Eigen::Index>& range) {
+    const Eigen::Matrix3Xd block = normals.middleCols(range.begin(), range.end() - range.begin());
+    for (const Light& light : all) add(light, block, cells, range.begin(), pixels);
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, normals.size(), kPixelBlock), work, tbb::simple_partitioner());
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, normals.cols(), kPixelBlock), work, tbb::simple_partitioner());
   return pixels;
 }
 
