@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "brdf/render/turned_light.hpp"
+
 namespace sklar::brdf {
 namespace {
 using std::numbers::pi;
@@ -48,15 +50,10 @@ class EnvironmentMap {
     const double right = x - column;
     for (std::size_t c = 0; c < 3; ++c) {
       const double v = value(static_cast<int>(c));
-      const auto w00 = static_cast<float>(v * (1 - down) * (1 - right));
-      const auto w01 = static_cast<float>(v * (1 - down) * right);
-      const auto w10 = static_cast<float>(v * down * (1 - right));
-      const auto w11 = static_cast<float>(v * down * right);
+      const double above = v * (1 - down), below = v * down;
+      const std::array<double, 4> share{above * (1 - right), above * right, below * (1 - right), below * right};
       const float* upper = &planes_[c][static_cast<std::size_t>(row * kWidth + column)];
-      const float* lower = upper + kWidth;
-      for (std::size_t a = 0; a < kAngles; ++a) {
-        ring[c][a] += w00 * upper[a] + w01 * upper[a + 1] + w10 * lower[a] + w11 * lower[a + 1];
-      }
+      add_turned_light(upper, upper + kWidth, share, kAngles, ring[c].data());
     }
   }
 
