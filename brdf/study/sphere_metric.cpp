@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "brdf/data/table_brdf.hpp"
-#include "brdf/geometry/frame.hpp"
 #include "brdf/study/metrics.hpp"
+#include "brdf/study/sphere_positions.hpp"
 
 namespace sklar::brdf {
 namespace {
@@ -66,8 +66,10 @@ std::vector<Light> lights() {
   return all;
 }
 
-/// Rows: normals.
-Eigen::Matrix3Xd disk_normals() {
+using Normals = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// 7208 normals, a multiple of 8 as the vector kernel wants it.
+Normals disk_normals() {
   std::vector<double> coordinates;
   for (int i = 0; i < kSize; ++i) {
     for (int j = 0; j < kSize; ++j) {
@@ -77,7 +79,8 @@ Eigen::Matrix3Xd disk_normals() {
       if (square < kDisk) coordinates.insert(coordinates.end(), {x, y, std::sqrt(1 - square)});
     }
   }
-  return Eigen::Map<const Eigen::Matrix3Xd>(coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size()) / 3);
+  return Eigen::Map<const Eigen::Matrix3Xd>(coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size()) / 3)
+      .transpose();
 }
 
 using Cell = Eigen::Array4d;  ///< the last is 0: whole vector registers
@@ -119,24 +122,20 @@ struct Stencil {
   }
 };
 
-/// theta_h and phi_d of a normal in a light's frame; exchanging the directions turns the normal by pi about h.
-HalfDifference coordinates_in(const Vec3& normal) {
-  const double turn = normal.y() < 0 ? -1.0 : 1.0;
-  return {.theta_h = polar_angle(normal),
-          .theta_d = 0,
-          .phi_d = std::atan2(std::abs(normal.y()), turn * normal.x())};
-}
-
 /// Adds a light to a block of pixels of every table's sphere.
-void add(const Light& light, const Eigen::Matrix3Xd& normals, const std::vector<std::vector<Cell>>& tables,
-         Eigen::Index first, std::vector<SpherePixels>& spheres) {
-  const Eigen::Matrix3Xd turned = light.frame.transpose() * normals;
-  for (Eigen::Index n = 0; n < normals.cols(); ++n) {
-    const double cos_i = light.direction.dot(normals.col(n));
-    if (!(cos_i > kLowestCosine && normals(2, n) > kLowestCosine)) continue;
-    CellPosition position = cell_position(coordinates_in(turned.col(n)));
-    position.theta_d = light.theta_d;
-    const Stencil stencil(position);
+void add(const Light& light, const Normals& normals, const std::vector<std::vector<Cell>>& tables, Eigen::Index first,
+         std::vector<SpherePixels>& spheres) {
+  const Normals turned = normals * light.frame;
+  std::array<double, kPixelBlock> theta_h, phi_d;
+  sphere_positions(turned.col(0).data(), turned.col(1).data(), turned.col(2).data(),
+                   static_cast<std::size_t>(turned.rows()), theta_h.data(), phi_d.data());
+  for (Eigen::Index n = 0; n < normals.rows(); ++n) {
+    const double cos_i = normals.row(n).dot(light.direction);
+    if (!(cos_i > kLowestCosine && normals(n, 2) > kLowestCosine)) continue;
+    const auto at = static_cast<std::size_t>(n);
+    const Stencil stencil({.theta_h = between_clamped(theta_h[at], Grid::theta_h),
+                           .theta_d = light.theta_d,
+                           .phi_d = between_periodic(phi_d[at], Grid::phi_d)});
     for (std::size_t t = 0; t < tables.size(); ++t) {
       spheres[t].row(first + n) += (light.power * cos_i * stencil.read(tables[t])).transpose();
     }
@@ -158,13 +157,13 @@ std::vector<SpherePixels> sphere_pixels(std::span<const CellValues* const> table
   std::vector<std::vector<Cell>> cells;
   for (const CellValues* table : tables) cells.push_back(interleave(*table));
   const std::vector<Light> all = lights();
-  const Eigen::Matrix3Xd normals = disk_normals();
-  std::vector<SpherePixels> pixels(tables.size(), SpherePixels::Zero(normals.cols(), 3));
+  const Normals normals = disk_normals();
+  std::vector<SpherePixels> pixels(tables.size(), SpherePixels::Zero(normals.rows(), 3));
   const auto work = [&](const tbb::blocked_range<Eigen::Index>& range) {
-    const Eigen::Matrix3Xd block = normals.middleCols(range.begin(), range.end() - range.begin());
+    const Normals block = normals.middleRows(range.begin(), range.end() - range.begin());
     for (const Light& light : all) add(light, block, cells, range.begin(), pixels);
   };
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, normals.cols(), kPixelBlock), work, tbb::simple_partitioner());
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, normals.rows(), kPixelBlock), work, tbb::simple_partitioner());
   return pixels;
 }
 

@@ -12,12 +12,15 @@
 #include "brdf/analytic/ggx.hpp"
 #include "brdf/analytic/lambert.hpp"
 #include "brdf/data/material.hpp"
+#include "brdf/geometry/frame.hpp"
+#include "brdf/study/sphere_positions.hpp"
 #include "tests/support/function_brdf.hpp"
 
 namespace sklar::brdf {
 namespace {
 using std::numbers::pi;
 
+constexpr double kPosition = 1e-12;  ///< cells
 constexpr double kRounding = 1e-11;  ///< relative, of sums of millions of terms in another order
 
 CellValues planes(double red, double green, double blue) {
@@ -165,6 +168,26 @@ TEST(SphereMetric, UniformTablesAreLambertSpheres) {
       }
       ++n;
     }
+  }
+}
+
+TEST(SphereMetric, PositionsAreThoseOfTheCoordinates) {
+  std::vector<double> x, y, z;
+  for (const double polar : {0.0, 1e-9, 0.01, 0.7, 1.5, pi / 2 - 1e-6}) {
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 w = spherical_direction(polar, (k - 3.7) * pi / 4);
+      x.push_back(w.x());
+      y.push_back(w.y());
+      z.push_back(w.z());
+    }
+  }
+  std::vector<double> theta_h(x.size()), phi_d(x.size());
+  sphere_positions(x.data(), y.data(), z.data(), x.size(), theta_h.data(), phi_d.data());
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const double radius = std::hypot(x[n], y[n]);
+    const double azimuth = radius > 0 ? std::atan2(y[n], x[n]) : 0;
+    EXPECT_NEAR(theta_h[n], 90 * std::sqrt(std::atan2(radius, z[n]) / (pi / 2)) - 0.5, kPosition) << n;
+    EXPECT_NEAR(phi_d[n], (azimuth < 0 ? azimuth + pi : azimuth) * 180 / pi - 0.5, kPosition) << n;
   }
 }
 
