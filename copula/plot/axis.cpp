@@ -36,7 +36,38 @@ double tick_step(double range, int parts) {
   return 10 * decade;
 }
 
-constexpr int kParts = 6;
+/// The multiples of a step in a range.
+std::vector<double> round_numbers(double low, double high, int parts) {
+  const double step = tick_step(high - low, parts);
+  const auto first = static_cast<long long>(std::ceil(low / step - 1e-9));
+  const auto last = static_cast<long long>(std::floor(high / step + 1e-9));
+  // A step below 1 is 1 / inverse: the quotient, unlike the product, is the double nearest to the decimal.
+  const double inverse = std::round(1 / step);
+  const bool divides = step < 1 && std::abs(inverse * step - 1) < 1e-9;
+  std::vector<double> numbers;
+  for (long long n = first; n <= last; ++n) {
+    const auto count = static_cast<double>(n);
+    numbers.push_back(divides ? count / inverse : count * step);
+  }
+  return numbers;
+}
+
+/// The exponent of the unit of an axis.
+int unit_power(const Axis& axis) {
+  if (!axis.ticks.empty() || axis.scale == Scale::digits || axis.scale == Scale::logarithmic) return 0;
+  const std::vector<double> numbers = round_numbers(axis.low, axis.high, kTickParts);
+  const bool plain = std::none_of(numbers.begin(), numbers.end(),
+                                  [](double number) { return to_text(number).find('e') != std::string::npos; });
+  if (plain) return 0;
+  const double greatest = std::max(std::abs(numbers.front()), std::abs(numbers.back()));
+  return 3 * static_cast<int>(std::floor(std::log10(greatest) / 3 + 1e-9));
+}
+
+/// With minus signs in place of hyphens.
+std::string with_minus_signs(std::string text) {
+  for (auto at = text.find('-'); at != std::string::npos; at = text.find('-')) text.replace(at, 1, "\u2212");
+  return text;
+}
 
 }  // namespace
 
@@ -56,7 +87,7 @@ Axis fitted(Axis axis, const std::vector<double>& values) {
     axis.high = axis.scale == Scale::logarithmic ? value * 2 : value + 0.5;
   }
   if (axis.scale == Scale::linear) {
-    const double step = tick_step(axis.high - axis.low, kParts);
+    const double step = tick_step(axis.high - axis.low, kTickParts);
     axis.low = std::floor(axis.low / step + 1e-9) * step;
     axis.high = std::ceil(axis.high / step - 1e-9) * step;
   }
@@ -68,11 +99,11 @@ double axis_position(const Axis& axis, double value) {
   return (scaled(axis.scale, value) - low) / (scaled(axis.scale, axis.high) - low);
 }
 
-std::vector<Tick> axis_ticks(const Axis& axis) {
+std::vector<Tick> axis_ticks(const Axis& axis, int parts) {
   std::vector<Tick> ticks;
   const auto add = [&](double value, std::string text) {
     const double position = axis_position(axis, value);
-    if (position >= -1e-9 && position <= 1 + 1e-9) ticks.push_back({position, std::move(text)});
+    if (position >= -1e-9 && position <= 1 + 1e-9) ticks.push_back({position, with_minus_signs(std::move(text))});
   };
   if (!axis.ticks.empty()) {
     for (const double value : axis.ticks) add(value, to_text(value));
@@ -83,22 +114,23 @@ std::vector<Tick> axis_ticks(const Axis& axis) {
   } else if (axis.scale == Scale::logarithmic) {
     const int first = static_cast<int>(std::ceil(std::log10(axis.low) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
-    const int step = std::max(1, (last - first + kParts - 1) / kParts);
+    const int step = std::max(1, (last - first + parts - 1) / parts);
     for (int power = first; power <= last; power += step)
       add(std::pow(10, power), "10^{" + std::to_string(power) + "}");
   } else {
-    const double step = tick_step(axis.high - axis.low, kParts);
-    const auto first = static_cast<long long>(std::ceil(axis.low / step - 1e-9));
-    const auto last = static_cast<long long>(std::floor(axis.high / step + 1e-9));
-    // A step below 1 is 1 / inverse: the quotient, unlike the product, is the double nearest to the decimal.
-    const double inverse = std::round(1 / step);
-    for (long long n = first; n <= last; ++n) {
-      const auto count = static_cast<double>(n);
-      const double value = step < 1 && std::abs(inverse * step - 1) < 1e-9 ? count / inverse : count * step;
-      add(value, to_text(value));
+    const double unit = std::pow(10, unit_power(axis));
+    for (const double number : round_numbers(axis.low / unit, axis.high / unit, parts)) {
+      add(number * unit, to_text(number));
     }
   }
   return ticks;
+}
+
+std::string axis_label(const Axis& axis) {
+  const int power = unit_power(axis);
+  if (power == 0) return axis.label;
+  const std::string unit = with_minus_signs("in 10^{" + std::to_string(power) + "}");
+  return axis.label.empty() ? unit : axis.label + " (" + unit + ")";
 }
 
 Colour viridis(double share) {

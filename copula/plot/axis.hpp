@@ -37,8 +37,17 @@ struct Tick {
 /// 0 at low, 1 at high; NaN for a value that the scale cannot show.
 [[nodiscard]] double axis_position(const Axis& axis, double value);
 
-/// Ticks within the range: round numbers, or decades on a logarithmic axis. @param axis low < high.
-[[nodiscard]] std::vector<Tick> axis_ticks(const Axis& axis);
+/// The most parts into which chosen ticks cut an axis.
+inline constexpr int kTickParts = 6;
+
+/// Ticks within the range: round numbers, or decades on a logarithmic axis. Where one of the round numbers would be
+/// written with an exponent, all are in the unit that axis_label names. @param axis low < high. @param parts 1 or more,
+/// for round numbers and decades.
+[[nodiscard]] std::vector<Tick> axis_ticks(const Axis& axis, int parts = kTickParts);
+
+/// The label with the unit of the ticks, a power of 1000, where it is not 1: "loss (in 10^{6})".
+/// @param axis low < high.
+[[nodiscard]] std::string axis_label(const Axis& axis);
 
 /// sRGB, each in [0,1].
 struct Colour {

@@ -30,6 +30,32 @@ double widest(Canvas& canvas, const std::vector<Tick>& ticks) {
   return width;
 }
 
+/// Text that would not fit is set smaller.
+void draw_fitted(Canvas& canvas, Point at, const std::string& text, Font font, double width, bool vertical = false) {
+  font.size *= std::min(1.0, width / std::max(canvas.text_width(text, font), 1.0));
+  canvas.text(at, text, font, 0.5, vertical);
+}
+
+/// The axis as it is drawn: its range found, its label with the unit.
+Axis drawn(const Axis& axis, const std::vector<double>& values) {
+  Axis result = fitted(axis, values);
+  result.label = axis_label(result);
+  return result;
+}
+
+/// Ticks along a width, as many as stand apart.
+std::vector<Tick> ticks_across(Canvas& canvas, const Axis& axis, double width) {
+  constexpr double kGap = 6;
+  const auto half = [&](const Tick& tick) { return canvas.text_width(tick.text, kTickFont) / 2; };
+  const auto touch = [&](const Tick& left, const Tick& right) {
+    return (right.position - left.position) * width < half(left) + half(right) + kGap;
+  };
+  for (int parts = kTickParts;; --parts) {
+    std::vector<Tick> ticks = axis_ticks(axis, parts);
+    if (parts == 1 || std::adjacent_find(ticks.begin(), ticks.end(), touch) == ticks.end()) return ticks;
+  }
+}
+
 /// The box of the data inside a panel, after title, labels and ticks have their room.
 Box data_box(Canvas& canvas, const Box& panel, const std::string& title, const Axis& x, const Axis& y, double right) {
   const double left = kLabel.size + 14 + widest(canvas, axis_ticks(y));
@@ -39,13 +65,13 @@ Box data_box(Canvas& canvas, const Box& panel, const std::string& title, const A
 }
 
 void draw_title(Canvas& canvas, const Box& data, const std::string& title) {
-  canvas.text({data.x + data.width / 2, data.y - 8}, title, kHeading, 0.5);
+  draw_fitted(canvas, {data.x + data.width / 2, data.y - 8}, title, kHeading, data.width);
 }
 
 /// Ticks, their texts and both labels outside the box; lines across it where `lines`.
 void draw_axes(Canvas& canvas, const Box& box, const Axis& x, const Axis& y, bool lines) {
   const double bottom = box.y + box.height;
-  for (const Tick& tick : axis_ticks(x)) {
+  for (const Tick& tick : ticks_across(canvas, x, box.width)) {
     const double at = box.x + tick.position * box.width;
     if (lines) canvas.line({{at, box.y}, {at, bottom}}, kGrid, 0.8);
     canvas.line({{at, bottom}, {at, bottom + 4}}, kInk, 1);
@@ -57,9 +83,9 @@ void draw_axes(Canvas& canvas, const Box& box, const Axis& x, const Axis& y, boo
     canvas.line({{box.x - 4, at}, {box.x, at}}, kInk, 1);
     canvas.text({box.x - 7, at + 0.36 * kTickFont.size}, tick.text, kTickFont, 1);
   }
-  canvas.text({box.x + box.width / 2, bottom + 12 + kTickFont.size + kLabel.size}, x.label, kLabel, 0.5);
+  draw_fitted(canvas, {box.x + box.width / 2, bottom + 12 + kTickFont.size + kLabel.size}, x.label, kLabel, box.width);
   const double left = box.x - 14 - widest(canvas, axis_ticks(y));
-  canvas.text({left, box.y + box.height / 2}, y.label, kLabel, 0.5, true);
+  draw_fitted(canvas, {left, box.y + box.height / 2}, y.label, kLabel, box.height, true);
 }
 
 void fill_below(Canvas& canvas, std::vector<Point> corners, const Colour& colour, double bottom) {
@@ -106,9 +132,9 @@ void draw(Canvas& canvas, const Box& panel, const LinePlot& plot) {
     all_x.insert(all_x.end(), line.x.begin(), line.x.end());
     all_y.insert(all_y.end(), line.y.begin(), line.y.end());
   }
-  const Axis x = fitted(plot.x, all_x);
-  const Axis y = fitted(plot.y, all_y);
-  const Box box = data_box(canvas, panel, plot.title, x, y, 12);
+  const Axis x = drawn(plot.x, all_x);
+  const Axis y = drawn(plot.y, all_y);
+  const Box box = data_box(canvas, panel, plot.title, x, y, std::max(12.0, widest(canvas, axis_ticks(x)) / 2));
   draw_title(canvas, box, plot.title);
   draw_axes(canvas, box, x, y, true);
   draw_lines(canvas, box, plot, x, y);
@@ -155,9 +181,9 @@ void draw(Canvas& canvas, const Box& panel, const HeatMap& map) {
     throw std::invalid_argument("write_page: heat map '" + map.title +
                                 "' needs one edge more than it has rows and columns");
   }
-  const Axis x = fitted(map.x, map.x_edges);
-  const Axis y = fitted(map.y, map.y_edges);
-  const Axis colour = fitted(map.colour, {map.values.data(), map.values.data() + map.values.size()});
+  const Axis x = drawn(map.x, map.x_edges);
+  const Axis y = drawn(map.y, map.y_edges);
+  const Axis colour = drawn(map.colour, {map.values.data(), map.values.data() + map.values.size()});
   const std::vector<Tick> ticks = axis_ticks(colour);
   const double right = 12 + kBar + 10 + widest(canvas, ticks) + (colour.label.empty() ? 0 : kLabel.size + 8);
   const Box box = data_box(canvas, panel, map.title, x, y, right);
@@ -172,7 +198,7 @@ void draw(Canvas& canvas, const Box& panel, const HeatMap& map) {
     canvas.line({{bar.x + kBar, at}, {bar.x + kBar + 3, at}}, kInk, 1);
     canvas.text({bar.x + kBar + 6, at + 0.36 * kTickFont.size}, tick.text, kTickFont);
   }
-  canvas.text({panel.x + panel.width - 2, bar.y + bar.height / 2}, colour.label, kLabel, 0.5, true);
+  draw_fitted(canvas, {panel.x + panel.width - 2, bar.y + bar.height / 2}, colour.label, kLabel, bar.height, true);
 }
 
 /// One entry for each label, in order of appearance.
@@ -250,12 +276,6 @@ void require_grid(const ImageGrid& grid) {
   if (!grid.row_labels.empty() && grid.row_labels.size() != grid.rows.size()) {
     throw std::invalid_argument("write_grid: there must be one row label for each row");
   }
-}
-
-/// Text that would not fit is set smaller.
-void draw_fitted(Canvas& canvas, Point at, const std::string& text, Font font, double width) {
-  font.size *= std::min(1.0, width / std::max(canvas.text_width(text, font), 1.0));
-  canvas.text(at, text, font, 0.5);
 }
 
 double caption_height(const std::vector<Tile>& row) {
@@ -337,8 +357,8 @@ void write_grid(const std::filesystem::path& path, const ImageGrid& grid) {
     for (const Tick& tick : axis_ticks(*grid.colour_bar)) {
       canvas.text({bar.x + tick.position * span, bottom + kBar + kTickFont.size + 3}, tick.text, kTickFont, 0.5);
     }
-    canvas.text({bar.x + span / 2, bottom + kBar + kTickFont.size + kLabel.size + 8}, grid.colour_bar->label, kLabel,
-                0.5);
+    canvas.text({bar.x + span / 2, bottom + kBar + kTickFont.size + kLabel.size + 8}, axis_label(*grid.colour_bar),
+                kLabel, 0.5);
   }
   canvas.save();
 }

@@ -27,11 +27,37 @@ using Texts = std::vector<std::string>;
 
 TEST(PlotAxis, TicksAreRoundNumbers) {
   EXPECT_EQ(texts({.low = 0, .high = 0.3}), (Texts{"0", "0.05", "0.1", "0.15", "0.2", "0.25", "0.3"}));
-  EXPECT_EQ(texts({.low = -3, .high = 7}), (Texts{"-2", "0", "2", "4", "6"}));
+  EXPECT_EQ(texts({.low = -3, .high = 7}), (Texts{"−2", "0", "2", "4", "6"}));
   EXPECT_EQ(texts({.low = 0, .high = 90, .ticks = {0, 45, 90, 100}}), (Texts{"0", "45", "90"}));
-  EXPECT_EQ(texts({.scale = Scale::logarithmic, .low = 0.02, .high = 10}), (Texts{"10^{-1}", "10^{0}", "10^{1}"}));
+  EXPECT_EQ(texts({.scale = Scale::logarithmic, .low = 0.02, .high = 10}), (Texts{"10^{−1}", "10^{0}", "10^{1}"}));
   EXPECT_EQ(texts({.scale = Scale::digits, .low = 1e-16, .high = 1e-4}),
-            (Texts{"10^{-5}", "10^{-7}", "10^{-10}", "10^{-15}"}));
+            (Texts{"10^{−5}", "10^{−7}", "10^{−10}", "10^{−15}"}));
+}
+
+TEST(PlotAxis, TicksWithAnExponentHaveOneUnit) {
+  const Axis losses{.label = "loss", .low = -5e5, .high = 2.5e6};
+  EXPECT_EQ(texts(losses), (Texts{"−0.5", "0", "0.5", "1", "1.5", "2", "2.5"}));
+  EXPECT_EQ(axis_label(losses), "loss (in 10^{6})");
+  EXPECT_DOUBLE_EQ(axis_ticks(losses)[2].position, 1 / 3.0);
+  const Axis small{.low = -4e-5, .high = 6e-5};
+  EXPECT_EQ(texts(small), (Texts{"−40", "−20", "0", "20", "40", "60"}));
+  EXPECT_EQ(axis_label(small), "in 10^{−6}");
+  EXPECT_EQ(texts({.low = 0, .high = 0.002}), (Texts{"0", "0.5", "1", "1.5", "2"}));
+  const Axis plain{.label = "d", .low = 2001494, .high = 2001506};
+  EXPECT_EQ(texts(plain).front(), "2001494");
+  EXPECT_EQ(axis_label(plain), "d");
+  EXPECT_EQ(axis_label({.label = "t", .scale = Scale::logarithmic, .low = 1e-9, .high = 1e9}), "t");
+}
+
+TEST(PlotAxis, FewerPartsAreRoundNumbersToo) {
+  const auto parts = [](const Axis& axis, int most) {
+    Texts all;
+    for (const Tick& tick : axis_ticks(axis, most)) all.push_back(tick.text);
+    return all;
+  };
+  EXPECT_EQ(parts({.low = 2001494, .high = 2001506}, 3), (Texts{"2001495", "2001500", "2001505"}));
+  EXPECT_EQ(parts({.low = -5e5, .high = 2.5e6}, 2), (Texts{"0", "2"})) << "in the unit of the label";
+  EXPECT_EQ(parts({.scale = Scale::logarithmic, .low = 1, .high = 1e6}, 2), (Texts{"10^{0}", "10^{3}", "10^{6}"}));
 }
 
 TEST(PlotAxis, PositionsFollowTheScale) {
@@ -124,6 +150,58 @@ TEST_F(PlotFile, MarkersStandAtThePointsAndInTheLegend) {
     EXPECT_GT(of_the_legend, 100);
     EXPECT_NEAR(reds(marker, 0.5), 2 * of_the_legend, 20);
   }
+}
+
+/// The widths in pixels of the dark pieces of a row of pixels `below` the lower side of a panel's frame, joined across
+/// gaps of less than half a letter.
+std::vector<int> pieces_below_the_frame(const Bytes& bytes, int below, int above) {
+  constexpr int kGap = 7;
+  const auto dark = [&](int x, int y) { return bytes.rgb[static_cast<std::size_t>(3 * (y * bytes.width + x))] < 128; };
+  int frame = bytes.height - 1;
+  const auto is_frame = [&](int y) {
+    int all = 0;
+    for (int x = 0; x < bytes.width; ++x) all += dark(x, y);
+    return all > bytes.width / 2;
+  };
+  while (frame > 0 && !is_frame(frame)) --frame;
+  std::vector<int> pieces;
+  int last = -kGap - 1, first = 0;
+  for (int x = 0; x < bytes.width; ++x) {
+    bool any = false;
+    for (int y = frame + below; y < frame + above; ++y) any = any || dark(x, y);
+    if (!any) continue;
+    if (x - last > kGap) {
+      pieces.push_back(0);
+      first = x;
+    }
+    last = x;
+    pieces.back() = x - first + 1;
+  }
+  return pieces;
+}
+
+TEST_F(PlotFile, TickLabelsStandApart) {
+  LinePlot plot{.x = {.low = 2001494, .high = 2001506}, .y = {.low = 0, .high = 1}};
+  plot.lines.push_back({.x = {2001494, 2001506}, .y = {0, 1}});
+  write_page(folder_ / "page.png", {.panels = {plot}});
+  const std::vector<int> labels = pieces_below_the_frame(read_png(folder_ / "page.png"), 16, 34);
+  ASSERT_EQ(labels.size(), 3u) << "2001495, 2001500, 2001505";
+  constexpr int kSevenDigits = 2 * 7 * 8;
+  for (const int width : labels) EXPECT_LT(width, kSevenDigits);
+}
+
+TEST_F(PlotFile, LongLabelsStayInTheirPanel) {
+  Page page = diagonal_page();
+  page.panels.pop_back();
+  auto& plot = std::get<LinePlot>(page.panels[0]);
+  plot.x.label = plot.y.label = plot.title = std::string(90, 'm');
+  write_page(folder_ / "page.png", page);
+  const Bytes bytes = read_png(folder_ / "page.png");
+  const auto white = [&](int x, int y) {
+    return bytes.rgb[static_cast<std::size_t>(3 * (y * bytes.width + x))] == 255;
+  };
+  for (int y = 0; y < bytes.height; ++y) EXPECT_TRUE(white(0, y) && white(bytes.width - 1, y)) << "row " << y;
+  for (int x = 0; x < bytes.width; ++x) EXPECT_TRUE(white(x, 0) && white(x, bytes.height - 1)) << "column " << x;
 }
 
 TEST_F(PlotFile, FilledLinesReachTheAxis) {
