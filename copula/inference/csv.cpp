@@ -7,6 +7,7 @@
 
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "copula/json_fields.hpp"
 
 namespace sklar {
 namespace {
@@ -109,11 +110,20 @@ class CsvParser {
     bool numeric = true;
     for (const std::size_t i : chosen_) {
       if (fields_[i].empty()) fail("column " + std::to_string(i + 1) + " has no name");
+      require_utf8(i);
       numeric = numeric && number(fields_[i]);
       table_.names.push_back(fields_[i]);
     }
     if (numeric) fail("expected a header with the names of the columns, found numbers");
     width_ = fields_.size();
+  }
+
+  void require_utf8(std::size_t column) const {
+    try {
+      json::require_utf8("its name", fields_[column]);
+    } catch (const std::invalid_argument& error) {
+      fail("column " + std::to_string(column + 1) + ": " + error.what());
+    }
   }
 
   [[nodiscard]] std::size_t position_of(const std::string& name) const {

@@ -37,7 +37,8 @@ struct CsvOptions {
 /// 4180). Blanks around a field, a carriage return at the end of a line and blank lines at the end of the text are
 /// ignored. @param source names the text in errors.
 /// @throws FileError naming the source and the line: empty text, a header of numbers, a missing, extra or bad field, a
-/// quote that is not closed; for a column that is not there, or there twice; for missing values as chosen.
+/// quote that is not closed, a name that is not UTF-8; for a column that is not there, or there twice; for missing
+/// values as chosen.
 [[nodiscard]] Table parse_csv(std::string_view text, std::string_view source, const CsvOptions& options = {});
 
 /// parse_csv of a file. @throws FileError also for a missing file or a directory.

@@ -95,6 +95,20 @@ void require_margins(const CopulaModel& model) {
                               std::to_string(model.margins.size()));
 }
 
+void require_columns(const CopulaModel& model) {
+  if (model.columns.empty()) return;
+  if (model.columns.size() != static_cast<std::size_t>(model.dim)) {
+    throw std::invalid_argument("needs the names of " + std::to_string(model.dim) + " columns or none, got " +
+                                std::to_string(model.columns.size()));
+  }
+  for (auto name = model.columns.begin(); name != model.columns.end(); ++name) {
+    json::require_utf8("the name of a column", *name);
+    if (std::find(model.columns.begin(), name, *name) != name) {
+      throw std::invalid_argument("two columns are named '" + *name + "'");
+    }
+  }
+}
+
 /// A component and what its family is: a definition is read once, however deep models stand in models.
 struct Part {
   ModelComponent component;
@@ -136,6 +150,11 @@ auto each_of(const Json& json, const char* name, const Convert& convert) {
   return values;
 }
 
+std::string text_of(const Json& json) {
+  if (!json.is_string()) throw std::invalid_argument("must be a text");
+  return json.get<std::string>();
+}
+
 std::vector<Part> parts_from(const Json& json, int dim, std::string_view source, std::span<const FamilyInfo> families) {
   if (!json.contains("components")) return {component_from(json, dim, source, families)};
   if (json.contains("family") || json.contains("theta")) {
@@ -171,7 +190,9 @@ ReadModel model_from(const Json& json, std::string_view source, std::span<const 
   for (const Part& part : parts) model.components.push_back(part.component);
   model.margins = each_of(json, "margins", margin_from);
   if (json.contains("name")) model.name = json::text(json, "name");
+  if (json.contains("columns")) model.columns = each_of(json, "columns", text_of);
   require_margins(model);
+  require_columns(model);
   if (json.contains("components")) require_weights(parts);
   return {std::move(model), std::move(parts)};
 }
@@ -193,6 +214,7 @@ bool needs_version_3(const StoredMarginal& margin) {
 }
 
 int version_of(const CopulaModel& model) {
+  if (!model.columns.empty()) return 4;
   if (std::any_of(model.margins.begin(), model.margins.end(), needs_version_3)) return 3;
   return needs_version_2(model) ? 2 : 1;
 }
@@ -207,6 +229,7 @@ std::string title_of(const CopulaModel& model) {
 FamilyInfo family_of_model(ReadModel&& read, std::string_view source) {
   auto& [model, parts] = read;
   model.margins.clear();
+  model.columns.clear();
   if (model.name.empty()) model.name = source;
   double total = 0;
   for (const ModelComponent& component : model.components) total += component.weight;
@@ -247,6 +270,7 @@ FamilyInfo family_from(const Json& json, std::string_view source, std::span<cons
 }  // namespace
 
 std::string to_json(const CopulaModel& model) {
+  require_columns(model);
   Json json = {{"format", kFormat}, {"version", version_of(model)}};
   if (!model.name.empty()) json["name"] = model.name;
   if (model.components.size() == 1) {
@@ -258,6 +282,7 @@ std::string to_json(const CopulaModel& model) {
       json["components"].push_back({{"weight", part.weight}, {"family", family_json(part)}, {"theta", part.theta}});
     }
   }
+  if (!model.columns.empty()) json["columns"] = model.columns;
   json["margins"] = Json::array();
   for (const StoredMarginal& margin : model.margins) {
     json["margins"].push_back(std::visit([](const auto& value) { return to_json_value(value); }, margin));

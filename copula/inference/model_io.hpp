@@ -28,10 +28,11 @@ struct CopulaModel {
   std::vector<ModelComponent> components;  ///< one, or those of a mixture
   std::vector<StoredMarginal> margins{};   ///< one a dimension, or none for the copula alone
   std::string name{};                      ///< of the model, or empty
+  std::vector<std::string> columns{};      ///< names, one a dimension and no two the same, or none
 };
 
 /// The newest version written and read.
-inline constexpr int kModelVersion = 3;
+inline constexpr int kModelVersion = 4;
 
 /// One family: {"format": "sklar copula", "version": 1, "family": .., "dim": .., "theta": [..], "margins": [..]} with
 /// margins {"kind": "histogram", "edges": [..], "masses": [..]} and {"kind": "empirical", "values": [..]}, ended by a
@@ -41,11 +42,14 @@ inline constexpr int kModelVersion = 3;
 /// "components": [{"weight": .., "family": .., "theta": [..]}, ..]. Version 3: margins {"kind": "normal", "mean": ..,
 /// "sd": ..}, {"kind": "gamma", "shape": .., "scale": ..}, {"kind": "beta", "a": .., "b": .., "lowest": .., "highest":
 /// ..} and {"kind": "kernel", "values": [..], "bandwidth": ..}, and "weights": [..] of empirical and kernel margins.
+/// Version 4: "columns": ["loss", ..], the names of the columns.
+/// @throws std::invalid_argument for columns that are not as above or not UTF-8.
 [[nodiscard]] std::string to_json(const CopulaModel& model);
 
 /// @param source   names the text in errors. @param families those the model may use, also rotated.
 /// @throws FileError naming the source and the field: not JSON, not this format, a newer version, a field missing or of
-/// the wrong type, an unknown family (with the known ones), parameters, weights or margins that are not admissible.
+/// the wrong type, an unknown family (with the known ones), parameters, weights, columns or margins that are not
+/// admissible.
 [[nodiscard]] CopulaModel parse_model(std::string_view json, std::string_view source,
                                       std::span<const FamilyInfo> families);
 

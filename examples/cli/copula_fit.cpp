@@ -129,7 +129,7 @@ void run(const Options& options, const Common& common) {
     throw std::runtime_error("no family could be fitted; " + best.fit.copula.family + ": " + best.fit.copula.message);
   }
   add_intervals(options, specs, sample, uniforms, common, fits);
-  if (!options.model.empty()) write_file(options.model, to_json(model_of(best, static_cast<int>(sample.x.cols()))));
+  if (!options.model.empty()) write_file(options.model, to_json(model_of(best, sample.names)));
   if (!options.report.empty()) {
     write_fit_report(options.report, {options.margins, sample.names, uniforms.u}, chosen, copula_fits(fits));
   }
@@ -174,7 +174,7 @@ void add_copula_fit(CLI::App& parent, Common& common) {
                      "aic");
   command->add_option("--folds", options->folds, "cv, holdout: parts of the data")->capture_default_str();
   add_interval_options(*command, options->intervals);
-  command->add_option("--model", options->model, "write the best copula with its margins here");
+  command->add_option("--model", options->model, "write the best copula with its margins and the columns' names here");
   command->add_option("-o", options->output, "write here, not to standard output");
   command->add_option("--report", options->report, "write a page for a browser here, with table and plots");
   finish_command(*command, common, [options, &common] { run(*options, common); });

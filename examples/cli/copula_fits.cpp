@@ -115,8 +115,8 @@ std::string csv_of(const Fits& fits) {
   return out;
 }
 
-CopulaModel model_of(const FamilyFit& fit, int dim) {
-  CopulaModel model{.dim = dim, .components = {}};
+CopulaModel model_of(const FamilyFit& fit, const std::vector<std::string>& columns) {
+  CopulaModel model{.dim = static_cast<int>(columns.size()), .components = {}, .columns = columns};
   model.components.push_back(
       {.family = fit.family->name, .theta = fit.fit.copula.theta, .definition = fit.family->definition});
   for (const MarginFit& margin : fit.fit.margins) model.margins.push_back(margin.margin);

@@ -35,7 +35,7 @@ void sort_by(Criterion criterion, Fits& fits);
 [[nodiscard]] std::string json_of(const Fits& fits, const Sample& sample);
 [[nodiscard]] std::string csv_of(const Fits& fits);
 
-/// The copula with its margins, if any.
-[[nodiscard]] CopulaModel model_of(const FamilyFit& fit, int dim);
+/// The copula with its margins, if any, of named columns.
+[[nodiscard]] CopulaModel model_of(const FamilyFit& fit, const std::vector<std::string>& columns);
 
 }  // namespace sklar::cli

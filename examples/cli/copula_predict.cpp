@@ -22,21 +22,31 @@ struct Options {
 };
 
 /// A copula without margins has uniform ones.
-std::shared_ptr<const JointDistribution> read_joint(const std::string& path) {
-  CopulaModel model = read_model(path, families::all());
+std::shared_ptr<const JointDistribution> joint_of(CopulaModel model) {
   if (model.margins.empty()) {
     model.margins.assign(static_cast<std::size_t>(model.dim), HistogramMarginal({0, 1}, {1}));
   }
   return std::make_shared<const JointDistribution>(make_joint(model, families::all()));
 }
 
-std::vector<std::string> column_names(const std::string& columns, int dim) {
+std::string listed(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all.append(all.empty() ? "" : ", ").append(name);
+  return all;
+}
+
+/// The names that the model holds, or for a model without them those of --columns or x1, x2, ..
+std::vector<std::string> column_names(const std::string& columns, const CopulaModel& model) {
+  if (!model.columns.empty()) {
+    if (columns.empty()) return model.columns;
+    throw std::invalid_argument("--columns: the model has the names of its columns: " + listed(model.columns));
+  }
   std::vector<std::string> names = columns.empty() ? std::vector<std::string>{} : split_csv(columns);
   if (columns.empty()) {
-    for (int k = 1; k <= dim; ++k) names.push_back("x" + std::to_string(k));
+    for (int k = 1; k <= model.dim; ++k) names.push_back("x" + std::to_string(k));
   }
-  if (names.size() == static_cast<std::size_t>(dim)) return names;
-  throw std::invalid_argument("--columns: the model has " + std::to_string(dim) + " columns, got " +
+  if (names.size() == static_cast<std::size_t>(model.dim)) return names;
+  throw std::invalid_argument("--columns: the model has " + std::to_string(model.dim) + " columns, got " +
                               std::to_string(names.size()) + " names");
 }
 
@@ -45,9 +55,7 @@ std::vector<int> given_columns(const Table& table, const std::string& path, cons
   for (const std::string& name : table.names) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
-      std::string known;
-      for (const std::string& one : names) known.append(known.empty() ? "" : ", ").append(one);
-      throw FileError(path, "the model has no column '" + name + "'; its columns: " + known);
+      throw FileError(path, "the model has no column '" + name + "'; its columns: " + listed(names));
     }
     given.push_back(static_cast<int>(found - names.begin()));
   }
@@ -90,10 +98,10 @@ void write_samples(const Options& options, const Prediction& prediction, const s
 }
 
 void run(const Options& options, const Common& common) {
-  const auto joint = read_joint(options.model);
-  const std::vector<std::string> names = column_names(options.columns, joint->dim());
+  const CopulaModel model = read_model(options.model, families::all());
+  const std::vector<std::string> names = column_names(options.columns, model);
   const Table table = read_csv(options.data);
-  const Prediction prediction(joint, given_columns(table, options.data, names));
+  const Prediction prediction(joint_of(model), given_columns(table, options.data, names));
   if (options.n > 0) {
     write_samples(options, prediction, names, table.values, common);
   } else {
@@ -110,7 +118,8 @@ void add_copula_predict(CLI::App& parent, Common& common) {
       ->required();
   command->add_option("DATA", options->data, "a header with some of the model's columns, then their values")
       ->required();
-  command->add_option("--columns", options->columns, "names of the model's columns in order; by default x1,x2,..");
+  command->add_option("--columns", options->columns,
+                      "names of the columns of a model that holds none, in order; by default x1,x2,..");
   auto* quantiles = command->add_option("--quantiles", options->quantiles, "of each column that is not given, alone")
                         ->capture_default_str();
   command->add_option("-n", options->n, "instead: draw so many points for every line, all columns together")

@@ -55,7 +55,7 @@ void sample_model(const Options& options, const Common& common) {
   if (model.margins.empty()) throw FileError(options.model, "has no margins; --family draws from a copula alone");
   Rng rng(common.seed);
   const Points x = make_joint(model, families::all()).sample(options.n, rng, given_of(options));
-  write_table(options.output, numbered("x", x.cols()), x, common.json);
+  write_table(options.output, model.columns.empty() ? numbered("x", x.cols()) : model.columns, x, common.json);
 }
 
 void run(const Options& options, const Common& common) {

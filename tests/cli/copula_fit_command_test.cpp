@@ -111,7 +111,7 @@ TEST_F(CopulaFitMargins, AreFittedAndStoredWithTheBestCopula) {
   ASSERT_EQ(sample.status, 0) << sample.err;
   Rng rng(4);
   const Points expected = make_joint(model, families::all()).sample(3, rng, Points::Constant(1, 1, 0.5));
-  EXPECT_EQ(sample.out, to_csv(std::vector<std::string>{"x1", "x2"}, expected));
+  EXPECT_EQ(sample.out, to_csv(std::vector<std::string>{"x", "y"}, expected));
   expect_usage_error("copula sample --model model.json --family frank -n 3");
   write("alone.json", to_json({.dim = 2, .components = {{.family = "clayton", .theta = {2}}}}));
   expect_refused("copula sample --model alone.json -n 3 -o out.csv", "alone.json: has no margins");

@@ -111,6 +111,18 @@ TEST_F(CopulaPredict, PrintsQuantilesOfTheOtherColumns) {
   EXPECT_TRUE(named.out.starts_with("b_q0.5\n0.2")) << named.out << named.err;
 }
 
+TEST_F(CopulaPredict, TakesTheNamesThatAFitWrote) {
+  write("losses.csv", "id,loss,alae\n1,10,3\n2,24,5\n3,45,4\n4,51,9\n5,60,8\n");
+  ASSERT_EQ(run("copula fit losses.csv --columns alae,loss --families frank --model losses.json").status, 0);
+  write("known.csv", "loss\n45\n");
+  const Result result = run("copula predict losses.json known.csv --quantiles 0.5");
+  EXPECT_TRUE(result.out.starts_with("alae_q0.5\n")) << result.out << result.err;
+  EXPECT_TRUE(run("copula predict losses.json known.csv -n 1").out.starts_with("alae,loss\n"));
+  EXPECT_TRUE(run("copula sample --model losses.json -n 1").out.starts_with("alae,loss\n"));
+  expect_refused("copula predict losses.json known.csv --columns loss,alae",
+                 "--columns: the model has the names of its columns: alae, loss");
+}
+
 TEST_F(CopulaPredict, DrawsPointsOfAllColumns) {
   const Result result = run("copula predict model.json data.csv -n 2 --seed 5");
   EXPECT_TRUE(result.out.starts_with("x1,x2,x3\n")) << result.err;

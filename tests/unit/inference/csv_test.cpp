@@ -40,6 +40,7 @@ TEST(Csv, HeaderAloneHasNoRows) {
 TEST(Csv, NamesTheLineAtFault) {
   EXPECT_EQ(failure(""), "data.csv: is empty; expected a header line and rows of numbers");
   EXPECT_EQ(failure(" \n\n"), "data.csv: is empty; expected a header line and rows of numbers");
+  EXPECT_EQ(failure("a,pr\xE4mie\n1,2\n"), "data.csv: line 1: column 2: its name is not UTF-8");
   EXPECT_EQ(failure("1,2\n3,4\n"), "data.csv: line 1: expected a header with the names of the columns, found numbers");
   EXPECT_EQ(failure("x,\n3,4\n"), "data.csv: line 1: column 2 has no name");
   EXPECT_EQ(failure("x,y\n1,2\n3\n"), "data.csv: line 3: expected 2 fields, found 1");

@@ -9,6 +9,7 @@
 #include "copula/mixture.hpp"
 #include "copula/rotated_family.hpp"
 #include "tests/support/family_cases.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace sklar {
@@ -87,6 +88,28 @@ TEST(ModelIo, KeepsMarginsOfEveryKind) {
   }
 }
 
+TEST(ModelIo, KeepsTheNamesOfColumns) {
+  const CopulaModel model{
+      .dim = 2, .components = {{.family = "clayton", .theta = {2}}}, .columns = {"loss", "a \"b\", c"}};
+  const std::string json = to_json(model);
+  EXPECT_EQ(json, R"({"format":"sklar copula","version":4,"family":"clayton","dim":2,"theta":[2.0],)"
+                  R"("columns":["loss","a \"b\", c"],"margins":[]})"
+                  "\n");
+  EXPECT_EQ(parse_model(json, "model.json", families::all()).columns, model.columns);
+  EXPECT_EQ(family_from_json(json, "m.json", families::all()).definition.find("columns"), std::string::npos)
+      << "a family is of the copula alone";
+}
+
+TEST(ModelIo, RefusesColumnsThatTellNothing) {
+  const auto refusal = [](const std::vector<std::string>& columns) {
+    CopulaModel model{.dim = 2, .components = {{.family = "clayton", .theta = {2}}}, .columns = columns};
+    return test::message_of<std::invalid_argument>([&] { (void)to_json(model); });
+  };
+  EXPECT_EQ(refusal({"a"}), "needs the names of 2 columns or none, got 1");
+  EXPECT_EQ(refusal({"a", "a"}), "two columns are named 'a'");
+  EXPECT_EQ(refusal({"a", "\xE4"}), "the name of a column is not UTF-8");
+}
+
 TEST(ModelIo, AMixtureIsThatOfItsComponents) {
   const CopulaPtr read = make_copula(parse_model(kMixture, "model.json", families::all()), families::all());
   const Mixture made({families::find("clayton@90").make(2, {2}), families::find("frank").make(2, {1.5})}, {0.25, 0.75});
@@ -143,8 +166,8 @@ TEST(ModelIo, NamesWhatIsWrong) {
   EXPECT_EQ(failure(""), "model.json: is not valid JSON: byte 1");
   EXPECT_EQ(failure(head), "model.json: is not valid JSON: byte " + std::to_string(head.size() + 1));
   EXPECT_EQ(failure("{}"), R"(model.json: expected "format": "sklar copula")");
-  EXPECT_EQ(failure(R"({"format":"sklar copula","version":4})"),
-            "model.json: has version 4; this program reads versions 1 to 3");
+  EXPECT_EQ(failure(R"({"format":"sklar copula","version":5})"),
+            "model.json: has version 5; this program reads versions 1 to 4");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":"1"})"),
             "model.json: field 'version' must be a whole number in 0 to 1000000, found \"1\"");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":1})"), "model.json: field 'dim' is missing");
@@ -162,6 +185,10 @@ TEST(ModelIo, NamesWhatIsWrong) {
       "model.json: margins[0]: unknown kind 'spline'; known kinds: histogram, empirical, kernel, normal, gamma, beta");
   EXPECT_EQ(failure(head + R"("dim":2,"theta":[],"margins":[{"kind":"histogram","edges":[0,1],"masses":[-1]}]})"),
             "model.json: margins[0]: histogram: masses must be finite and 0 or more, got masses(0) = -1");
+  EXPECT_EQ(failure(head + R"("dim":2,"theta":[],"columns":["a","a"],"margins":[]})"),
+            "model.json: two columns are named 'a'");
+  EXPECT_EQ(failure(head + R"("dim":2,"theta":[],"columns":["a",1],"margins":[]})"),
+            "model.json: columns[1]: must be a text");
   EXPECT_EQ(failure(R"({"format":"sklar copula","version":1,"family":"x","dim":2,"theta":[],"margins":[]})"),
             "model.json: unknown family 'x'; known families: " + name);
 }
