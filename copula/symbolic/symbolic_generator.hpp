@@ -5,8 +5,10 @@
 #include <limits>
 
 #include "copula/generator.hpp"
+#include "copula/generic_route.hpp"
 #include "copula/numerics.hpp"
 #include "copula/symbolic/generator_formula.hpp"
+#include "copula/symbolic/limit_at_infinity.hpp"
 #include "copula/types.hpp"
 
 namespace sklar::symbolic {
@@ -31,8 +33,10 @@ struct PreparedFormula {
 };
 
 /// Satisfies Generator for orders 0..dim. Where a condition of the formula is not positive, t is beyond the support and
-/// psi is 0, as in (1 + theta t)_+. A number whose sign or value its type does not resolve has an infinite error bound.
-/// Immutable; copies share what they hold. Whether psi is a generator at all: require_generator.
+/// psi is 0, as in (1 + theta t)_+. Coordinates 0 give the limits of copula.hpp, unknown where limit_at_infinity does
+/// not find them and, beside ones, at the edge of a bounded support or where psi'(0) is infinite. A number whose sign
+/// or value its type does not resolve has an infinite error bound. Immutable; copies share what they hold. Whether psi
+/// is a generator at all: require_generator.
 class SymbolicGenerator {
  public:
   /// @param dim highest order, 1 to kMaxDimension. @param theta one value a parameter of the formula.
@@ -90,6 +94,42 @@ class SymbolicGenerator {
     return inside == kUnknownSign || sign_of_factors(values) == wrong ? unknown<T>() : values[0];
   }
 
+  template <class T>
+  [[nodiscard]] T log_density(std::span<const T> u) const {
+    const int zeros = count_zeros(u);
+    if (zeros == 0) return generic_log_density(*this, u);
+    if (support_is_bounded<T>()) {
+      const bool at_edge = zeros == 1 && count_ones(u) == static_cast<int>(u.size()) - 1;
+      return at_edge ? unknown<T>() : T(-kInfinity);
+    }
+    return limit_at_zeros(u, [&](const auto& generator) { return generic_log_density(generator, u); });
+  }
+
+  /// Given values at the edge of the support or beyond it, the next coordinate is 1.
+  template <class T>
+  [[nodiscard]] T log_conditional(std::span<const T> u) const {
+    const auto given = u.first(u.size() - 1);
+    if (count_zeros(given) == 0) {
+      const T log_h = generic_log_conditional(*this, u);
+      return is_beyond_support(log_h, given) ? T(-kInfinity) : log_h;
+    }
+    if (support_is_bounded<T>()) return T(-kInfinity);
+    return limit_at_zeros(u, [&](const auto& generator) { return generic_log_conditional(generator, u); });
+  }
+
+  template <class T>
+  [[nodiscard]] T conditional_inverse(std::span<const T> given, const T& p) const {
+    if (count_zeros(given) == 0) {
+      const T minus_log_v = generic_conditional_inverse(*this, given, p);
+      return is_beyond_support(minus_log_v, given) ? T(0) : minus_log_v;
+    }
+    if (support_is_bounded<T>()) return T(0);
+    return limit_at_zeros(given, [&](const auto& generator) {
+      const T start = generator.log_abs_dpsi(static_cast<int>(given.size()), generic_sum(generator, given));
+      return start.error < kStartError ? generic_conditional_inverse(generator, given, p) : unknown<T>();
+    });
+  }
+
   /// Sign of psi^(k)(t), 0 beyond the support, kUnknownSign where T does not resolve it; and log|psi^(k)(t)|.
   template <class T>
   [[nodiscard]] std::pair<int, T> signed_derivative(int k, const T& t) const {
@@ -103,6 +143,7 @@ class SymbolicGenerator {
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kGoodEnough = 1e-15;  ///< relative error of psi^-1 that no other form improves much
+  static constexpr double kStartError = 1e-3;   ///< of the logarithm from which a conditional is inverted
   static constexpr std::size_t kRemembered = 1021;
   enum class Inverse { formula, numeric };
 
@@ -153,6 +194,30 @@ class SymbolicGenerator {
       sign *= next;
     }
     return sign;
+  }
+
+  template <class T>
+  [[nodiscard]] bool support_is_bounded() const {
+    return formula_->conditions() > 0 && signed_derivative(0, T(0x1p500)).first == 0;
+  }
+
+  /// Whether a result is not known because psi is 0 at the given values.
+  template <class T>
+  [[nodiscard]] bool is_beyond_support(const T& result, std::span<const T> given) const {
+    using std::isfinite;
+    if (formula_->conditions() == 0 || isfinite(result.error)) return false;
+    return signed_derivative(0, generic_sum(*this, given)).first == 0;
+  }
+
+  /// The limit of quantity(generator) as psi^-1(0) grows, from far beyond that of the other coordinates.
+  template <class T, class Quantity>
+  [[nodiscard]] T limit_at_zeros(std::span<const T> u, const Quantity& quantity) const {
+    T smallest(1);
+    for (const T& value : u) {
+      if (!is_zero(value) && value < smallest) smallest = value;
+    }
+    const T start = psi_inv(smallest / T(1024));
+    return limit_at_infinity([&](const T& far) { return quantity(ZerosAt<SymbolicGenerator, T>(*this, far)); }, start);
   }
 
   template <class T>
