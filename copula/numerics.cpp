@@ -2,7 +2,9 @@
 
 #include <boost/math/special_functions/bernoulli.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -46,22 +48,26 @@ double debye_1_defect(double x) {
 
 namespace {
 
+// Newton for y = -2^n x, near 1, in A_n(x) / (1-x)^(n+1) = sum_{k>=1} k^n x^(k-1) = sum_{k>=1} (k / 2^(k-1))^n
+// (-y)^(k-1): as |x| < 1 for n > 2, few terms.
 long double find_eulerian_root(int n) {
-  // Newton from 0, right of every root, rises monotonically to the largest one. The polynomial is divided by n!.
-  const Triangle<EulerianRule> table(n + 1, {});
-  const auto coefficients = table.row<Extended>(n);
-  long double x = 0;
-  for (int step = 0; step < 200; ++step) {
-    long double value = 0, slope = 0;
-    for (std::size_t k = coefficients.size(); k-- > 0;) {
-      slope = slope * x + value;
-      value = value * x + coefficients[k].value;
+  if (n == 2) return -1;
+  constexpr int kMostSteps = 50;  // 5 are enough
+  constexpr long double kResolution = std::numeric_limits<long double>::epsilon();
+  long double y = 1;
+  for (int step = 0; step < kMostSteps; ++step) {
+    long double value = 1, slope = 0, last = 1;
+    for (int k = 2; k < 64 && last > kResolution * kResolution; ++k) {
+      last = std::pow(std::ldexp(static_cast<long double>(k), 1 - k), static_cast<long double>(n)) * std::pow(y, k - 1);
+      const long double term = k % 2 == 0 ? -last : last;
+      value += term;
+      slope += (k - 1) * term / y;
     }
-    const long double next = x - value / slope;
-    if (!(next < x)) break;
-    x = next;
+    const long double change = value / slope;
+    y -= change;
+    if (std::abs(change) <= kResolution * y) break;
   }
-  return x;
+  return -std::ldexp(y, -n);
 }
 
 }  // namespace

@@ -230,6 +230,7 @@ TEST(Numerics, RootsOfEulerianPolynomialsNearestZero) {
     EXPECT_LE(std::abs(value / slope), 1e-14 * std::abs(x)) << n;
     EXPECT_GT(x, static_cast<double>(eulerian_root(n - 1))) << n;
   }
+  for (const int n : {1000, 16000}) EXPECT_EQ(eulerian_root(n), -std::ldexp(1.0L, -n)) << "1 + (3/4)^n times that";
 }
 
 TEST(FamilyDomains, FrankByDimension) {
