@@ -18,6 +18,13 @@ std::string path(const NamedCommand& command) {
   return result;
 }
 
+/// A text between single quotes as the shells take it; `quote` stands for one inside.
+std::string quoted(const std::string& text, const std::string& quote) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? quote : std::string(1, c);
+  return result + "'";
+}
+
 constexpr const char* kHead = R"(# Completion for bash, written by `sklar --bash-completion`.
 _sklar()
 {
@@ -38,6 +45,57 @@ constexpr const char* kTail = R"(      esac ;;
 }
 complete -o default -F _sklar sklar
 )";
+
+constexpr const char* kZshHead = R"(#compdef sklar
+# Completion for zsh, written by `sklar --zsh-completion`.
+local command= before=${words[CURRENT-1]} word
+local -a below flags values  # zsh has parameters commands and options
+for word in ${words[2,CURRENT-1]}; do
+  case "$command $word" in
+)";
+
+constexpr const char* kZshTail = R"(esac
+if (( $#values )); then
+  compadd -a values
+elif [[ $PREFIX == -* ]]; then
+  _describe -o option flags
+elif (( $#below )); then
+  _describe command below
+else
+  _files
+fi
+)";
+
+constexpr const char* kFishHead = R"(# Completion for fish, written by `sklar --fish-completion`.
+function __sklar_at
+    set -l command ''
+    for word in (commandline -opc)[2..-1]
+        switch "$command $word"
+)";
+
+constexpr const char* kFishTail = R"(        end
+    end
+    test "$command" = "$argv[1]"
+end
+)";
+
+/// NAME:DESCRIPTION for zsh.
+std::string described(const std::string& name, const std::string& description) {
+  return " " + quoted(name + ":" + description, R"('\'')");
+}
+
+/// How fish is told of an option.
+std::string fish_option(const CLI::Option& option) {
+  std::string result;
+  for (const std::string& name : option.get_lnames()) result += " -l " + name;
+  for (const std::string& name : option.get_snames()) result += " -s " + name;
+  if (!choices(option).empty()) {
+    result += " -x -a '" + joined(choices(option)) + "'";
+  } else if (option.get_items_expected_max() > 0) {
+    result += " -r";
+  }
+  return result + " -d " + quoted(option.get_description(), R"(\')");
+}
 
 }  // namespace
 
@@ -62,6 +120,45 @@ std::string bash_completion(const CLI::App& app) {
   }
   return kHead + known + "    esac\n  done\n  case \"$command $before\" in\n" + values +
          "    *)\n      case \"$command\" in\n" + words + kTail;
+}
+
+std::string zsh_completion(const CLI::App& app) {
+  std::string known, values, words;
+  for (const NamedCommand& command : all_commands(app)) {
+    std::string children, options;
+    for (const CLI::App* child : command.app->get_subcommands({})) {
+      children += described(child->get_name(), child->get_description());
+      known += "    '" + path(command) + " " + child->get_name() + "') command+=\" $word\" ;;\n";
+    }
+    for (const CLI::Option* option : command.app->get_options()) {
+      for (const std::string& flag : flags(*option)) {
+        options += described(flag, option->get_description());
+        if (choices(*option).empty()) continue;
+        values += "  '" + path(command) + " " + flag + "') values=(" + joined(choices(*option)) + ") ;;\n";
+      }
+    }
+    words += "  '" + path(command) + "')\n    below=(" + children + " )\n    flags=(" + options + " ) ;;\n";
+  }
+  return kZshHead + known +
+         "  esac\ndone\nif [[ $PREFIX == --*=* ]]; then\n  before=${PREFIX%%=*}\n  compset -P '*='\nfi\n" +
+         "case \"$command $before\" in\n" + values + "esac\ncase $command in\n" + words + kZshTail;
+}
+
+// Files are offered beside what is told, but for commands that have others below them.
+std::string fish_completion(const CLI::App& app) {
+  std::string known, words;
+  for (const NamedCommand& command : all_commands(app)) {
+    const std::string here = "complete -c sklar -n \"__sklar_at '" + path(command) + "'\"";
+    for (const CLI::App* child : command.app->get_subcommands({})) {
+      known += "            case '" + path(command) + " " + child->get_name() +
+               "'\n                set command \"$command $word\"\n";
+      words += here + " -f -a " + child->get_name() + " -d " + quoted(child->get_description(), R"(\')") + "\n";
+    }
+    for (const CLI::Option* option : command.app->get_options()) {
+      if (!flags(*option).empty()) words += here + fish_option(*option) + "\n";
+    }
+  }
+  return kFishHead + known + kFishTail + words;
 }
 
 }  // namespace sklar::cli

@@ -31,7 +31,9 @@ struct NamedCommand {
 /// `man sklar` in the macros of man(7).
 [[nodiscard]] std::string manual_page(const CLI::App& app);
 
-/// A script that tells bash how to complete the arguments.
+/// Scripts that tell a shell how to complete the arguments.
 [[nodiscard]] std::string bash_completion(const CLI::App& app);
+[[nodiscard]] std::string zsh_completion(const CLI::App& app);
+[[nodiscard]] std::string fish_completion(const CLI::App& app);
 
 }  // namespace sklar::cli

@@ -44,6 +44,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", SKLAR_VERSION);
   add_page(app, "--manual", "Print the manual page, for man, and exit", manual_page);
   add_page(app, "--bash-completion", "Print what completes arguments in bash and exit", bash_completion);
+  add_page(app, "--zsh-completion", "Print what completes arguments in zsh and exit", zsh_completion);
+  add_page(app, "--fish-completion", "Print what completes arguments in fish and exit", fish_completion);
   app.formatter(std::make_shared<HelpText>());
   app.footer("Exit status: 0, 1 with one line on standard error that says what is wrong, 2 for wrong usage.");
   app.require_subcommand(1);

@@ -25,7 +25,8 @@ cpack -G DEB --config "$build/CPackConfig.cmake" -B "$scratch" >cpack.log 2>&1 |
 package=$(echo "$scratch"/*.deb)
 dpkg-deb --info "$package" | sed -n 's/^ //p'
 dpkg-deb --contents "$package" >contents
-for file in bin/sklar man/man1/sklar.1 bash-completion/completions/sklar doc/sklar/copyright \
+for file in bin/sklar man/man1/sklar.1 bash-completion/completions/sklar \
+  zsh/vendor-completions/_sklar fish/vendor_completions.d/sklar.fish doc/sklar/copyright \
   include/sklar/families/registry.hpp cmake/sklar/sklarConfig.cmake; do
   grep -q "/$file\$" contents || fail "the package has no $file"
 done
