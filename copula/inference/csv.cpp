@@ -12,6 +12,8 @@
 namespace sklar {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 std::string_view trimmed(std::string_view field) {
   constexpr std::string_view kBlank = " \t\r";
   const std::size_t first = field.find_first_not_of(kBlank);
@@ -36,7 +38,6 @@ class CsvParser {
   CsvParser(std::string_view source, const CsvOptions& options) : source_(source), options_(options) {}
 
   Table parse(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
     rest_ = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
     if (rest_.empty()) throw FileError(source_, "is empty; expected a header line and rows of numbers");
@@ -176,8 +177,10 @@ class CsvParser {
   Table table_;
 };
 
+/// A name as a header says it.
 std::string quoted_if_needed(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  const bool plain = name.find_first_of(",\"\r\n") == std::string::npos && name == trimmed(name);
+  if (plain && !name.starts_with(kByteOrderMark)) return name;
   std::string text = "\"";
   for (const char c : name) text.append(c == '"' ? 2 : 1, c);
   return text + '"';

@@ -45,7 +45,7 @@ struct CsvOptions {
 [[nodiscard]] Table read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
 /// Header and rows, each number with the 17 significant digits that give back the same double; a name with a comma, a
-/// quote or a line end in quotes.
+/// quote, a line end or blanks around it in quotes.
 /// @throws std::invalid_argument unless there is one name a column.
 [[nodiscard]] std::string to_csv(std::span<const std::string> names, const PointsRef& values);
 
