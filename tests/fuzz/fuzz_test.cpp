@@ -36,17 +36,17 @@ std::map<std::string, std::string> corpus_of(const FuzzTarget& target) {
   return inputs;
 }
 
-/// While it lives, memory beyond what is in use now and some megabytes ends in std::bad_alloc. Sanitizers reserve
-/// address space of their own, under them it does nothing.
+/// While it lives, memory beyond what is in use now and 64 MB ends in std::bad_alloc. Sanitizers reserve address space
+/// of their own, under them it does nothing.
 class MemoryLimit {
  public:
-  explicit MemoryLimit([[maybe_unused]] int megabytes) {
+  MemoryLimit() {
     ::getrlimit(RLIMIT_AS, &before_);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     rlimit limit = before_;
-    limit.rlim_cur = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (static_cast<rlim_t>(megabytes) << 20);
+    limit.rlim_cur = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (rlim_t{64} << 20);
     ::setrlimit(RLIMIT_AS, &limit);
 #endif
   }
@@ -82,7 +82,7 @@ class Fuzz : public testing::TestWithParam<FuzzTarget> {
 };
 
 TEST_P(Fuzz, CorpusIsReadOrRefusedAsItsNameSays) {
-  const MemoryLimit limit(GetParam().megabytes);
+  const MemoryLimit limit;
   int read = 0, refused = 0;
   for (const auto& [name, bytes] : corpus_of(GetParam())) {
     const bool expected = name.starts_with("read");
@@ -96,7 +96,7 @@ TEST_P(Fuzz, CorpusIsReadOrRefusedAsItsNameSays) {
 TEST_P(Fuzz, MutationsAreReadOrRefused) {
   std::vector<std::string> inputs;
   for (auto& [name, bytes] : corpus_of(GetParam())) inputs.push_back(std::move(bytes));
-  const MemoryLimit limit(GetParam().megabytes);
+  const MemoryLimit limit;
   Mutator mutator(GetParam().name);
   for (int n = 0; n < factor() * GetParam().mutations && !HasFailure(); ++n) {
     (void)is_read(mutator.next(inputs), "mutation " + std::to_string(n));

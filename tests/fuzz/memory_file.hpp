@@ -25,11 +25,6 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  /// Grown by zeros.
-  void resize(std::size_t size) const {
-    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) throw std::runtime_error("no memory file");
-  }
-
   [[nodiscard]] std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
  private:

@@ -12,7 +12,6 @@ struct FuzzTarget {
   const char* name;                         ///< also of its folder in tests/fuzz/corpus
   bool (*is_read)(std::string_view bytes);  ///< false: refused in the documented way; every other exception is a fault
   int mutations;                            ///< inputs that fuzz_test makes: a fraction of a second's work
-  int megabytes = 64;                       ///< that a small input may take
 };
 
 [[nodiscard]] std::span<const FuzzTarget> copula_targets();
