@@ -88,7 +88,6 @@ Table read_table(const std::string& path) {
   if (table.header != kHeader && table.header != std::vector(kHeader.begin(), kHeader.end() - 1)) {
     throw FileError(path, "line 1: the header must be family,theta,quantity,d,u or family,theta,quantity,d,u,expected");
   }
-  table.rows.reserve(lines.size());  // groups point to rows
   for (std::size_t i = 1; i < lines.size(); ++i) {
     try {
       add_row(table, i + 1, lines[i]);

@@ -1,6 +1,7 @@
 #pragma once
 /// The input of `sklar copula table`: rows family,theta,quantity,d,u[,expected], grouped into batches.
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ struct Group {
 
 struct Table {
   std::vector<std::string> header;
-  std::vector<Row> rows;                             ///< in the order of the file
+  std::deque<Row> rows;                              ///< in the order of the file; groups point to them
   std::map<std::vector<std::string>, Group> groups;  ///< by the fields before u
 };
 

@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 
 std::vector<FuzzTarget> all_targets() {
   std::vector<FuzzTarget> targets;
-  for (const auto part : {copula_targets(), brdf_targets()}) targets.insert(targets.end(), part.begin(), part.end());
+  for (const auto part : {copula_targets(), brdf_targets(), command_targets()}) {
+    targets.insert(targets.end(), part.begin(), part.end());
+  }
   return targets;
 }
 

@@ -13,8 +13,9 @@ namespace {
 const sklar::test::FuzzTarget* chosen = nullptr;
 
 void choose(std::string_view name) {
-  for (const auto targets : {sklar::test::copula_targets(), sklar::test::brdf_targets()}) {
-    for (const sklar::test::FuzzTarget& target : targets) {
+  using namespace sklar::test;
+  for (const auto targets : {copula_targets(), brdf_targets(), command_targets()}) {
+    for (const FuzzTarget& target : targets) {
       if (name == target.name) chosen = &target;
       if (name.empty()) std::cout << target.name << '\n';
     }

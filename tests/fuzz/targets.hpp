@@ -16,6 +16,7 @@ struct FuzzTarget {
 
 [[nodiscard]] std::span<const FuzzTarget> copula_targets();
 [[nodiscard]] std::span<const FuzzTarget> brdf_targets();
+[[nodiscard]] std::span<const FuzzTarget> command_targets();
 
 /// Whether read() returned; its documented refusal must be a Refusal.
 template <class Refusal, class Read>
