@@ -1,17 +1,18 @@
 #pragma once
 /// Inside of an expression, for the sources of copula/symbolic only: the exact number type and the canonical order.
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
+#include <boost/multiprecision/rational_adaptor.hpp>
 
 #include "copula/symbolic/expression.hpp"
 
 namespace sklar::symbolic {
 
-/// Exact numbers of any size.
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
-using Rational =
-    boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
-                                  boost::multiprecision::et_off>;
+/// Exact numbers of any size. Of GMP, whose greatest common divisor of two numbers of 2^15 bits takes a thousandth of
+/// the time of Boost's own integers.
+using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+using Rational = boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::gmp_int>,
+                                               boost::multiprecision::et_off>;
 
 struct Node {
   Kind kind;
