@@ -63,13 +63,25 @@ class JointScale {
     for (const MarginFit& margin : start_.margins) {
       for (std::size_t i = 0; i < margin.parameters.size(); ++i) {
         const double value = margin.parameters[i], step = margin.standard_error[i] * y[parameters.size()];
-        const bool location = margin.spec.kind == MarginKind::normal && i == 0;
-        parameters.push_back(location ? value + step : value * std::exp(step / value));
+        parameters.push_back(is_location(margin.spec.kind, i) ? value + step : value * std::exp(step / value));
       }
     }
     const Theta theta = theta_at(y);
     parameters.insert(parameters.end(), theta.begin(), theta.end());
     return parameters;
+  }
+
+  /// The coordinates of JointFit::covariance by y: they are linear in it.
+  [[nodiscard]] Eigen::VectorXd units() const {
+    Eigen::VectorXd units = Eigen::VectorXd::Constant(static_cast<Index>(size()), z_unit_);
+    Index next = 0;
+    for (const MarginFit& margin : start_.margins) {
+      for (std::size_t i = 0; i < margin.parameters.size(); ++i) {
+        const double error = margin.standard_error[i];
+        units[next++] = is_location(margin.spec.kind, i) ? error : error / margin.parameters[i];
+      }
+    }
+    return units;
   }
 
   [[nodiscard]] Theta theta_at(const std::vector<double>& y) const {
@@ -123,6 +135,7 @@ class JointSearch {
     const Minimum minimum =
         minimise([&](const std::vector<double>& y) { return evaluate(y); }, start, scale_.box(), search);
     record(minimum);
+    fit_.together = true;
     if (options_.standard_errors && fit_.copula.status != FitStatus::failed) add_standard_errors(minimum);
     return std::move(fit_);
   }
@@ -196,6 +209,8 @@ class JointSearch {
   /// Standard errors of y from second differences of the objective, then of the parameters by their slopes.
   void add_standard_errors(const Minimum& minimum) {
     std::vector<double> errors(minimum.z.size(), FitResult::kNone);
+    const Eigen::VectorXd units = scale_.units();
+    fit_.covariance = Eigen::MatrixXd::Constant(units.size(), units.size(), FitResult::kNone);
     std::vector<std::size_t> inner;
     for (std::size_t i = 0; i < minimum.z.size(); ++i) {
       if (!at_bound(minimum.z, i)) inner.push_back(i);
@@ -213,6 +228,7 @@ class JointSearch {
         const auto entry = static_cast<Index>(i);
         errors[inner[i]] = std::abs(slope) * std::sqrt(covariance(entry, entry));
       }
+      fit_.covariance(inner, inner) = units(inner).asDiagonal() * covariance * units(inner).asDiagonal();
     }
     auto next = errors.begin();
     for (MarginFit& margin : fit_.margins) {

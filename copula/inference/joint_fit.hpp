@@ -22,11 +22,13 @@ namespace sklar {
 
 /// A copula with margins. The numbers of all of them together are NaN where a margin has no density.
 struct JointFit {
-  std::vector<MarginFit> margins;
-  FitResult copula;
+  std::vector<MarginFit> margins = {};
+  FitResult copula = {};
   double log_likelihood = FitResult::kNone;  ///< sum w_i log h(x_i), of margins and copula
   double aic = FitResult::kNone;             ///< of all parameters; a bandwidth is none
   double bic = FitResult::kNone;
+  bool together = false;            ///< all parameters are those of fit_together
+  Eigen::MatrixXd covariance = {};  ///< then that of the estimates in the coordinates of fit_together; else empty
 };
 
 /// The fit in two steps (inference functions for margins, Joe 2014, section 5.5): these margins, and a copula fitted to
@@ -35,9 +37,10 @@ struct JointFit {
 
 /// Maximises the likelihood of margins and copula over all their parameters, from a fit in two steps on. Coordinates
 /// are in units of the standard errors of that fit; standard errors are those of the joint observed information, by
-/// second differences; NaN for parameters at a bound. FitResult::objective is -log_likelihood of the whole, its
-/// evaluations are at most FitOptions::max_evaluations a parameter; each costs the cdf and density of every margin at
-/// every row.
+/// second differences; NaN for parameters at a bound. JointFit::covariance, the inverse of that information, is of the
+/// means of normal margins, the logarithms of other parameters of margins, and ParameterScale::z, in turn.
+/// FitResult::objective is -log_likelihood of the whole, its evaluations are at most FitOptions::max_evaluations a
+/// parameter; each costs the cdf and density of every margin at every row.
 /// @param start    of x and weights. A copula that failed is returned as it is.
 /// @throws std::invalid_argument unless every margin is parametric.
 [[nodiscard]] JointFit fit_together(const FamilyInfo& family, const JointFit& start, const PointsRef& x,

@@ -202,6 +202,10 @@ bool is_parametric(MarginKind kind) {
   return kind == MarginKind::normal || kind == MarginKind::gamma || kind == MarginKind::beta;
 }
 
+bool is_location(MarginKind kind, std::size_t parameter) {
+  return kind == MarginKind::normal && parameter == 0;
+}
+
 StoredMarginal make_margin(const MarginSpec& spec, const std::vector<double>& parameters) {
   const double first = parameters.at(0), second = parameters.at(1);
   if (spec.kind == MarginKind::normal) return NormalMarginal(first, second);

@@ -42,6 +42,9 @@ struct MarginSpec {
 /// Whether the margin has parameters that are estimated by maximum likelihood: normal, gamma and beta.
 [[nodiscard]] bool is_parametric(MarginKind kind);
 
+/// Whether the parameter can have any value; all others are positive.
+[[nodiscard]] bool is_location(MarginKind kind, std::size_t parameter);
+
 /// The margin with these parameters. Precondition: is_parametric. @throws std::domain_error as its constructor.
 [[nodiscard]] StoredMarginal make_margin(const MarginSpec& spec, const std::vector<double>& parameters);
 

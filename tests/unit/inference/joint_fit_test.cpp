@@ -115,6 +115,25 @@ TEST(JointFit, StandardErrorsAreThoseOfTheJointInformation) {
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(covariance(i, i), 1, 0.01) << i;
 }
 
+// Of a mean itself, of a positive parameter the logarithm, of Clayton's theta atanh(theta / (theta + 2)).
+TEST(JointFit, CovarianceIsThatOfTheStandardErrors) {
+  constexpr double kSlopes = 1e-3;  ///< relative: the errors come by slopes over 0.1 of them
+  const Points x = sample_of("clayton", {2}, {NormalMarginal(1, 2), GammaMarginal(2, 3)}, 100, 3);
+  const JointFit start = two_steps("clayton", {kNormal, kGamma}, x);
+  EXPECT_FALSE(start.together);
+  EXPECT_EQ(start.covariance.size(), 0);
+  const JointFit fit = fit_together(families::find("clayton"), start, x);
+  ASSERT_TRUE(fit.together);
+  const double theta = fit.copula.theta[0];
+  const std::vector<double> p = parameters_of(fit), errors = errors_of(fit);
+  const std::vector<double> slopes = {1, p[1], p[2], p[3], 2 * (theta + 1)};
+  ASSERT_EQ(fit.covariance.rows(), 5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto entry = static_cast<Index>(i);
+    EXPECT_NEAR(slopes[i] * std::sqrt(fit.covariance(entry, entry)) / errors[i], 1, kSlopes) << i;
+  }
+}
+
 TEST(JointFit, RecoversWhatItWasDrawnFromAndGainsOnTwoSteps) {
   const std::vector<double> truth = {-1, 3, 1.5, 2, 1.8};
   const Points x = sample_of("gumbel", {1.8}, {NormalMarginal(-1, 3), GammaMarginal(1.5, 2)}, 800, 4);
