@@ -261,9 +261,9 @@ class JointSearch {
     return information;
   }
 
-  /// In units of standard errors: the objective moves by 1/200, far above its rounding, and is not yet far from a
-  /// parabola.
-  static constexpr double kStep = 0.1;
+  /// In units of standard errors: the objective moves by 5e-5, far above its rounding. It leaves a parabola earlier
+  /// where estimates are correlated: ten rows of a Clayton copula, tau 0.7, have errors off by 5 % at 0.1.
+  static constexpr double kStep = 0.01;
 
   const FamilyInfo& family_;
   PointsRef x_;

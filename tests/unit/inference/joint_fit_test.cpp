@@ -117,7 +117,7 @@ TEST(JointFit, StandardErrorsAreThoseOfTheJointInformation) {
 
 // Of a mean itself, of a positive parameter the logarithm, of Clayton's theta atanh(theta / (theta + 2)).
 TEST(JointFit, CovarianceIsThatOfTheStandardErrors) {
-  constexpr double kSlopes = 1e-3;  ///< relative: the errors come by slopes over 0.1 of them
+  constexpr double kSlopes = 1e-3;  ///< relative: the errors come by differences
   const Points x = sample_of("clayton", {2}, {NormalMarginal(1, 2), GammaMarginal(2, 3)}, 100, 3);
   const JointFit start = two_steps("clayton", {kNormal, kGamma}, x);
   EXPECT_FALSE(start.together);
