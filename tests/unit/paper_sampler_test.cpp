@@ -32,7 +32,7 @@ TEST(PaperSampler, DrawsFollowTheDensity) {
                            .theta_cells = 9,
                            .phi_cells = 24,
                            .tests = tests,
-                           .mass_tolerance = 5e-5});
+                           .mass_tolerance = 2e-4});
     }
   }
 }
