@@ -178,7 +178,7 @@ TEST_P(AnalyticModel, SamplerFollowsItsDensity) {
   const BrdfPtr model = GetParam().make();
   const auto tests = static_cast<int>(cases().size() * given_directions().size());
   for (const Vec3& wo : given_directions()) {
-    test::check_sampler(*model, wo, test::seed_of_this_test(), {.tests = tests});
+    test::check_sampler(*model, wo, test::seed_of_this_test(), {.draws = test::sampler_draws() / 3, .tests = tests});
   }
 }
 
