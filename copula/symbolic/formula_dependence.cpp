@@ -52,7 +52,8 @@ double rounded(double tau) {
 }  // namespace
 
 double kendall_tau(const SymbolicGenerator& generator) {
-  static boost::math::quadrature::tanh_sinh<double> quadrature;  // safe to share between threads
+  // Not shared: threads that ask it for more nodes at once read them half made (Boost 1.74, extend_refinements).
+  boost::math::quadrature::tanh_sinh<double> quadrature;
   bool known = true;
   const auto integrand = [&](double u) {
     const double value = minus_t_slope(generator, u);

@@ -10,6 +10,7 @@
 
 #include "copula/archimedean.hpp"
 #include "copula/symbolic/derivative.hpp"
+#include "copula/symbolic/formula_dependence.hpp"
 #include "copula/symbolic/generator_check.hpp"
 #include "copula/symbolic/parser.hpp"
 #include "tests/unit/symbolic_generators.hpp"
@@ -253,6 +254,18 @@ TEST(SymbolicGenerator, IsSharedByThreads) {
   for (Column& result : results) threads.emplace_back([&] { result = copula.log_pdf(u); });
   for (std::thread& thread : threads) thread.join();
   for (const Column& result : results) EXPECT_TRUE((result == expected).all());
+}
+
+// psi bends so sharply that the integral takes more nodes than its rule begins with. tau = 1 - 4 int t psi'(t)^2 dt.
+TEST(SymbolicGenerator, KendallTauIsRightOnManyThreads) {
+  constexpr double kTheta = 300, kTauError = 1e-10;
+  const SymbolicGenerator generator(formula("(exp(-t)+exp(-theta*t))/2"), 2, {kTheta, kDelta}, "F");
+  std::array<double, 4> results{};
+  std::vector<std::thread> threads;
+  for (double& result : results) threads.emplace_back([&] { result = kendall_tau(generator); });
+  for (std::thread& thread : threads) thread.join();
+  const double expected = 0.5 - 2 * kTheta / ((1 + kTheta) * (1 + kTheta));
+  for (const double result : results) EXPECT_NEAR(result, expected, kTauError);
 }
 
 }  // namespace
