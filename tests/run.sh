@@ -16,6 +16,7 @@ if [ -n "${SKLAR_TEST_DATA:-}" ]; then
   export SKLAR_TEST_DATA
 fi
 
+[ "$preset" != tsan ] || sh tests/support/threads_tbb.sh "$PWD/$build/tbb"
 cmake --preset "$preset" --log-level=WARNING
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error --output-log "$build/tests.log"
