@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "copula/error.hpp"
 
@@ -29,6 +32,14 @@ TEST(Registry, RotationsAreFoundByName) {
     EXPECT_THROW((void)families::find(name), std::invalid_argument) << name;
   }
   EXPECT_THROW((void)families::resolve("missing.json@90"), FileError);
+}
+
+TEST(Registry, ThreadsThatAskAtOnceGetOneFamily) {
+  std::array<const FamilyInfo*, 4> found{};
+  std::vector<std::thread> threads;
+  for (const FamilyInfo*& family : found) threads.emplace_back([&family] { family = &families::find("joe@90"); });
+  for (std::thread& thread : threads) thread.join();
+  for (const FamilyInfo* family : found) EXPECT_EQ(family, &families::find("joe@90"));
 }
 
 TEST(Registry, UnknownNameListsTheKnownOnes) {
