@@ -20,10 +20,11 @@ Interval between(double a, double b) {
 /// A maximum of the likelihood and its surroundings in the coordinates z.
 class Maximum {
  public:
-  Maximum(const FamilyInfo& family, const FitResult& result, const PointsRef& u, const SpreadAt& spread,
-          const IntervalOptions& options)
+  Maximum(const FamilyInfo& family, const FitResult& result, const PointsRef& u, const ColumnRef& weights,
+          const SpreadAt& spread, const IntervalOptions& options)
       : family_(family),
         u_(u),
+        weights_(weights),
         dim_(static_cast<int>(u.cols())),
         parallel_(options.fit.parallel),
         scale_(family, dim_),
@@ -66,7 +67,7 @@ class Maximum {
 
   [[nodiscard]] double likelihood(const std::vector<double>& z) const {
     const CopulaPtr copula = family_.make_unchecked(dim_, scale_.theta(z));
-    return log_likelihood(*copula, u_, Column(), {.parallel = parallel_}).or_nothing();
+    return log_likelihood(*copula, u_, weights_, {.parallel = parallel_}).or_nothing();
   }
 
   /// The derivative of a function of theta by each z.
@@ -161,6 +162,7 @@ class Maximum {
 
   const FamilyInfo& family_;
   PointsRef u_;
+  ColumnRef weights_;
   int dim_;
   bool parallel_;
   ParameterScale scale_;
@@ -185,13 +187,14 @@ ConfidenceIntervals no_intervals(const FitResult& result, std::string message) {
 }
 
 ConfidenceIntervals likelihood_intervals(const FamilyInfo& family, const FitResult& result, const PointsRef& u,
-                                         const SpreadAt& spread, const IntervalOptions& options) {
+                                         const ColumnRef& weights, const SpreadAt& spread,
+                                         const IntervalOptions& options) {
   if (result.method != FitMethod::maximum_likelihood) {
     return no_intervals(result, std::string(to_text(options.method)) + " intervals need a fit by maximum likelihood");
   }
   if (result.status != FitStatus::converged) return no_intervals(result, result.message);
   if (result.theta.empty()) return no_intervals(result, "the family has no parameters");
-  const Maximum maximum(family, result, u, spread, options);
+  const Maximum maximum(family, result, u, weights, spread, options);
   if (!maximum.has_spread())
     return no_intervals(result, "the likelihood at its maximum does not tell the spread of the estimate");
   ConfidenceIntervals intervals = no_intervals(result, "");

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "copula/inference/intervals.hpp"
-#include "copula/inference/rank_covariance.hpp"
+#include "copula/inference/likelihood_spread.hpp"
 
 namespace sklar {
 
@@ -17,9 +17,9 @@ using SpreadAt = std::function<LikelihoodSpread(const ParameterScale& scale, con
 /// NaN throughout, with a message.
 [[nodiscard]] ConfidenceIntervals no_intervals(const FitResult& result, std::string message);
 
-/// wald or profile. @param u as fitted. @param spread called once if the fit has an interior maximum.
+/// wald or profile. @param u, weights as fitted. @param spread called once if the fit has an interior maximum.
 [[nodiscard]] ConfidenceIntervals likelihood_intervals(const FamilyInfo& family, const FitResult& result,
-                                                       const PointsRef& u, const SpreadAt& spread,
-                                                       const IntervalOptions& options);
+                                                       const PointsRef& u, const ColumnRef& weights,
+                                                       const SpreadAt& spread, const IntervalOptions& options);
 
 }  // namespace sklar

@@ -82,16 +82,11 @@ void add_held_out(const Options& options, const std::vector<MarginSpec>& specs, 
   for (std::size_t i = 0; i < found.size(); ++i) fits.families[i].held_out = found[i];
 }
 
-void add_intervals(const Options& options, const std::vector<MarginSpec>& specs, const Sample& sample,
-                   const Uniforms& uniforms, const Common& common, Fits& fits) {
+void add_intervals(const Options& options, const Sample& sample, const Common& common, Fits& fits) {
   if (!options.intervals.confidence) return;
-  const auto ranked = [](const MarginSpec& spec) { return spec.kind == MarginKind::empirical; };
-  if (sample.weights.size() > 0 || !std::all_of(specs.begin(), specs.end(), ranked)) {
-    throw std::invalid_argument("--confidence takes --margins empirical or none, and no --weights");
-  }
+  const RankOptions ranking{.ties = options.ties, .seed = common.seed};
   for (FamilyFit& family : fits.families) {
-    family.intervals =
-        intervals_of(*family.family, family.fit.copula, uniforms.u, !specs.empty(), options.intervals, common.seed);
+    family.intervals = intervals_of(*family.family, family.fit, sample, options.intervals, ranking);
   }
 }
 
@@ -128,7 +123,7 @@ void run(const Options& options, const Common& common) {
   if (best.fit.copula.status == FitStatus::failed) {
     throw std::runtime_error("no family could be fitted; " + best.fit.copula.family + ": " + best.fit.copula.message);
   }
-  add_intervals(options, specs, sample, uniforms, common, fits);
+  add_intervals(options, sample, common, fits);
   if (!options.model.empty()) write_file(options.model, to_json(model_of(best, sample.names)));
   if (!options.report.empty()) {
     write_fit_report(options.report, {options.margins, sample.names, uniforms.u}, chosen, copula_fits(fits));

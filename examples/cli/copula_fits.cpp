@@ -77,7 +77,7 @@ std::string json_of(const Fits& fits, const Sample& sample) {
       entry["heldout_se"] = json_number(family.held_out->standard_error);
       entry["heldout_message"] = family.held_out->message;
     }
-    if (family.intervals) entry["intervals"] = interval_json(*family.intervals);
+    if (family.intervals) entry["intervals"] = interval_json(*family.intervals, family.fit, sample.names);
     if (fits.together) entry["margins"] = json_of(family.fit.margins, sample);
     document["families"].push_back(std::move(entry));
   }

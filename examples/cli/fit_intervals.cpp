@@ -24,8 +24,9 @@ std::vector<double> highest_ends(const ConfidenceIntervals& intervals) {
 }  // namespace
 
 void add_interval_options(CLI::App& command, IntervalSettings& settings) {
-  auto* confidence = command.add_option("--confidence", settings.confidence,
-                                        "adds confidence intervals of theta and tau, in (0,1) as in 0.95");
+  auto* confidence =
+      command.add_option("--confidence", settings.confidence,
+                         "adds confidence intervals of theta, tau and, with --json, margins, in (0,1) as in 0.95");
   const std::map<std::string, IntervalMethod> methods = {
       {"wald", IntervalMethod::wald}, {"profile", IntervalMethod::profile}, {"bootstrap", IntervalMethod::bootstrap}};
   command
@@ -39,14 +40,14 @@ void add_interval_options(CLI::App& command, IntervalSettings& settings) {
       ->needs(confidence);
 }
 
-ConfidenceIntervals intervals_of(const FamilyInfo& family, const FitResult& result, const PointsRef& u, bool ranks,
-                                 const IntervalSettings& settings, std::uint64_t seed) {
+ConfidenceIntervals intervals_of(const FamilyInfo& family, const JointFit& fit, const Sample& sample,
+                                 const IntervalSettings& settings, const RankOptions& ranking) {
   IntervalOptions options = settings.intervals;
   options.confidence = *settings.confidence;
-  options.ranks = ranks;
-  options.bootstrap.seed = seed;
-  if (options.method == IntervalMethod::bootstrap) options.bootstrap.progress = progress_bar(result.family);
-  return confidence_intervals(family, result, u, options);
+  options.ranking = ranking;
+  options.bootstrap.seed = ranking.seed;
+  if (options.method == IntervalMethod::bootstrap) options.bootstrap.progress = progress_bar(family.name);
+  return joint_intervals(family, fit, sample.x, sample.weights, options);
 }
 
 std::string interval_header() {
@@ -59,14 +60,29 @@ std::string interval_fields(const ConfidenceIntervals& intervals) {
          ',' + csv_field(intervals.message);
 }
 
-nlohmann::ordered_json interval_json(const ConfidenceIntervals& intervals) {
-  return {{"theta_low", json_numbers(lowest_ends(intervals))},
-          {"theta_high", json_numbers(highest_ends(intervals))},
-          {"tau_low", json_number(intervals.tau.lowest)},
-          {"tau_high", json_number(intervals.tau.highest)},
-          {"se", json_numbers(intervals.standard_error)},
-          {"failed", intervals.failed},
-          {"message", intervals.message}};
+nlohmann::ordered_json interval_json(const ConfidenceIntervals& intervals, const JointFit& fit,
+                                     const std::vector<std::string>& columns) {
+  nlohmann::ordered_json json{{"theta_low", json_numbers(lowest_ends(intervals))},
+                              {"theta_high", json_numbers(highest_ends(intervals))},
+                              {"tau_low", json_number(intervals.tau.lowest)},
+                              {"tau_high", json_number(intervals.tau.highest)},
+                              {"se", json_numbers(intervals.standard_error)},
+                              {"failed", intervals.failed},
+                              {"message", intervals.message}};
+  for (std::size_t i = 0; i < intervals.margins.size(); ++i) {
+    const auto names = parameter_names(fit.margins[i].spec.kind);
+    const MarginIntervals& margin = intervals.margins[i];
+    if (names.empty()) continue;
+    nlohmann::ordered_json entry{{"column", columns[i]}};
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      const std::string name(names[a]);
+      entry["low"][name] = json_number(margin.parameters[a].lowest);
+      entry["high"][name] = json_number(margin.parameters[a].highest);
+      entry["se"][name] = json_number(margin.standard_error[a]);
+    }
+    json["margins"].push_back(std::move(entry));
+  }
+  return json;
 }
 
 }  // namespace sklar::cli

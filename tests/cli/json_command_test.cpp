@@ -138,6 +138,7 @@ TEST_F(JsonCommand, CopulaCommandsPrintWhatThePageSays) {
   expect_output("sklar copula fit", normal + "--select holdout");
   expect_output("sklar copula fit", normal + "--fit joint");
   expect_output("sklar copula fit", "copula fit data.csv --families frank --confidence 0.9");
+  expect_output("sklar copula fit", normal + "--confidence 0.9");
   expect_output("sklar copula test", "copula test data.csv --family frank --replicates 20");
   write("given.csv", "x1\n0.25\n0.5\n");
   write("model.json", R"({"format":"sklar copula","version":1,"family":"frank","dim":2,"theta":[2],"margins":[]})");

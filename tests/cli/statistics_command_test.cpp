@@ -80,7 +80,36 @@ TEST_F(FitIntervals, AreAddedWhereAskedFor) {
   EXPECT_NE(intervals("--confidence 0.9"), intervals("--confidence 0.9 --margins none"));
 }
 
+TEST_F(FitIntervals, AreThereOfFittedMarginsAndCounts) {
+  const std::string arguments = "copula fit clayton.csv --families clayton --confidence 0.9 --json ";
+  const auto intervals = [&](const std::string& options) {
+    return nlohmann::json::parse(run(arguments + options).out)["families"][0]["intervals"];
+  };
+  for (const std::string fit : {"two-step", "joint", "two-step --interval bootstrap --replicates 19"}) {
+    const auto found = intervals("--margins beta,normal --fit " + fit);
+    EXPECT_LT(found["tau_low"], 0.5) << fit;
+    EXPECT_GT(found["tau_high"], 0.5) << fit;
+    EXPECT_EQ(found["margins"][0]["column"], "u1") << fit;
+    EXPECT_LT(found["margins"][0]["low"]["a"], 1) << fit;
+    EXPECT_GT(found["margins"][0]["high"]["a"], 1) << fit;
+    EXPECT_GT(found["margins"][1]["se"]["sd"], 0) << fit;
+  }
+  EXPECT_FALSE(intervals("").contains("margins"));
+  write("counts.csv", "x,y,k\n1,2,3\n2,1,1\n3,5,2\n4,3,1\n5,4,1\n");
+  write("rows.csv", "x,y\n1,2\n1,2\n1,2\n2,1\n3,5\n3,5\n4,3\n5,4\n");
+  const auto low = [&](const std::string& file) {
+    const std::string out = run("copula fit " + file + " --families frank --confidence 0.9 --json").out;
+    return nlohmann::json::parse(out)["families"][0]["intervals"]["tau_low"].get<double>();
+  };
+  EXPECT_NEAR(low("counts.csv --weights k"), low("rows.csv"), 1e-6) << "two searches, to 1e-7";
+}
+
 TEST_F(FitIntervals, RefuseWhatTheyCannotDo) {
+  write("shares.csv", "x,y,w\n1,2,0.5\n2,1,1\n3,5,1\n4,3,1\n");
+  expect_refused("copula fit shares.csv --weights w --families frank --confidence 0.9",
+                 "weights must be whole numbers, counts of equal rows, got weights(0) = 0.5");
+  expect_refused("copula fit clayton.csv --margins kernel --families frank --confidence 0.9",
+                 "no intervals with kernel margins");
   expect_refused("copula fit clayton.csv --confidence 1", "confidence must be in (0,1), got 1");
   expect_refused("copula fit clayton.csv --confidence 0.99 --interval bootstrap --replicates 100",
                  "need 199 fitted replicates or more, got 100");

@@ -63,11 +63,11 @@ TEST(Intervals, AreThoseOfSixtyDigits) {
   const FitResult fitted = fit_maximum_likelihood(family("clayton"), u);
   EXPECT_NEAR(fitted.theta[0], 2.38341361736055857635, 10 * kSearch);
   for (const Case& expected : {known, ranked}) {
-    const auto wald = confidence_intervals(family("clayton"), fitted, u, {.ranks = expected.ranks});
+    const auto wald = confidence_intervals(family("clayton"), fitted, u, Column(), {.ranks = expected.ranks});
     EXPECT_NEAR(wald.standard_error[0], expected.error, kDifferences * expected.error);
     expect_interval(wald.theta[0], expected.wald.lowest, expected.wald.highest, kDifferences);
     expect_interval(wald.tau, expected.wald_tau.lowest, expected.wald_tau.highest, kDifferences);
-    const auto profile = confidence_intervals(family("clayton"), fitted, u,
+    const auto profile = confidence_intervals(family("clayton"), fitted, u, Column(),
                                               {.method = IntervalMethod::profile, .ranks = expected.ranks});
     expect_interval(profile.theta[0], expected.profile.lowest, expected.profile.highest,
                     expected.ranks ? kDifferences : kProfile);
@@ -82,7 +82,7 @@ double coverage(const FamilyInfo& family, double tau, const IntervalOptions& opt
   for (int sample = 0; sample < kSamples; ++sample) {
     const Points points = simulated(family, 2, tau, 200, 5000 + static_cast<std::uint64_t>(sample));
     const Points u = rank_them ? pseudo_observations(points) : points;
-    const auto intervals = confidence_intervals(family, fit_maximum_likelihood(family, u), u, options);
+    const auto intervals = confidence_intervals(family, fit_maximum_likelihood(family, u), u, Column(), options);
     if (intervals.tau.contains(tau)) ++covered;
   }
   return static_cast<double>(covered) / kSamples;
@@ -109,9 +109,9 @@ TEST(Intervals, OfTheBootstrapHaveTheSpreadOfTheLikelihood) {
     const Points u = ranks ? pseudo_observations(points) : points;
     const FitResult fitted = fit_maximum_likelihood(family("gumbel"), u);
     IntervalOptions options{.ranks = ranks, .bootstrap = {.replicates = kReplicates}};
-    const auto wald = confidence_intervals(family("gumbel"), fitted, u, options);
+    const auto wald = confidence_intervals(family("gumbel"), fitted, u, Column(), options);
     options.method = IntervalMethod::bootstrap;
-    const auto bootstrap = confidence_intervals(family("gumbel"), fitted, u, options);
+    const auto bootstrap = confidence_intervals(family("gumbel"), fitted, u, Column(), options);
     EXPECT_NEAR(bootstrap.standard_error[0] / wald.standard_error[0], 1,
                 kStandardErrors / std::sqrt(2.0 * kReplicates));
     EXPECT_EQ(bootstrap.failed, 0);
@@ -129,7 +129,7 @@ TEST(Intervals, OfTheBootstrapAreOrderStatistics) {
                        thetas[static_cast<std::size_t>(replicate)] =
                            fit_tau_inversion(family("frank"), pseudo_observations(x)).theta[0];
                      });
-  const Interval found = confidence_intervals(family("frank"), fitted, u, options).theta[0];
+  const Interval found = confidence_intervals(family("frank"), fitted, u, Column(), options).theta[0];
   EXPECT_EQ(found.lowest, std::ranges::min(thetas));
   EXPECT_EQ(found.highest, std::ranges::max(thetas));
 }
@@ -139,7 +139,7 @@ TEST(Intervals, OfANegativeDependenceAreInOrder) {
   const Points u = pseudo_observations(simulated(turned, 2, -0.4, 200, 3));
   for (const IntervalMethod method : {IntervalMethod::wald, IntervalMethod::profile}) {
     const FitResult fitted = fit_maximum_likelihood(turned, u);
-    const auto found = confidence_intervals(turned, fitted, u, {.method = method});
+    const auto found = confidence_intervals(turned, fitted, u, Column(), {.method = method});
     EXPECT_TRUE(found.tau.contains(fitted.tau) && found.tau.highest < 0) << to_text(method);
     EXPECT_TRUE(found.theta[0].contains(fitted.theta[0]) && found.theta[0].lowest > 1) << to_text(method);
   }
@@ -173,14 +173,14 @@ TEST(Intervals, OfTwoParametersEndWhereTheProfileSays) {
   const Points u = two.make(2, {0.5, 1.5})->sample(300, rng);
   const FitResult fitted = fit_maximum_likelihood(two, u);
   IntervalOptions options{.method = IntervalMethod::profile, .confidence = 0.9, .ranks = false};
-  const auto profile = confidence_intervals(two, fitted, u, options);
+  const auto profile = confidence_intervals(two, fitted, u, Column(), options);
   for (const double theta : {profile.theta[0].lowest, profile.theta[0].highest}) {
     const double drop = fitted.log_likelihood - profile_likelihood(two, u, theta);
     EXPECT_NEAR(std::sqrt(2 * drop), kQuantile, kProfile) << theta;
   }
   EXPECT_TRUE(std::isnan(profile.tau.lowest));
   options.method = IntervalMethod::wald;
-  const auto wald = confidence_intervals(two, fitted, u, options);
+  const auto wald = confidence_intervals(two, fitted, u, Column(), options);
   for (std::size_t a : {0, 1}) {
     EXPECT_NEAR(wald.standard_error[a], fitted.standard_error[a], 1e-3 * fitted.standard_error[a]);
     EXPECT_TRUE(wald.theta[a].contains(fitted.theta[a]));
@@ -210,7 +210,7 @@ TEST(Intervals, RefuseOptionsOutOfRange) {
   const FitResult fitted = fit_maximum_likelihood(family("frank"), u);
   const auto refused = [&](const IntervalOptions& options) {
     return test::message_of<std::invalid_argument>(
-        [&] { (void)confidence_intervals(family("frank"), fitted, u, options); });
+        [&] { (void)confidence_intervals(family("frank"), fitted, u, Column(), options); });
   };
   for (const double confidence : {0.0, 1.0, std::nan("")}) {
     EXPECT_NE(refused({.confidence = confidence}).find("confidence must be in (0,1)"), std::string::npos);
