@@ -105,7 +105,7 @@ template <class T>
 
 /// Root y > 0 of an increasing function N with N(0) = 0 at the level `target` > 0, by Newton steps on log N as a
 /// function of log y, kept inside a bracket. @param rate T -> pair (N(y), N'(y)). @param start first guess, > 0.
-/// @return y; its error follows from the residual and the slope at y.
+/// @return y; its error follows from the residual and the slope at y, infinite where the slope may be 0.
 template <class T, class Rate>
 [[nodiscard]] T solve_increasing(const Rate& rate, const T& target, const T& start) {
   using Real = std::remove_cvref_t<decltype(start.value)>;
@@ -118,9 +118,11 @@ template <class T, class Rate>
     const T residual = level - target;
     const bool settled = isfinite(residual.error) && abs(residual.value) <= residual.error / 4;
     const bool done = settled || step == kMaxSteps || above - below <= resolution * y;
-    if (done)
-      return {
-          y, Real((abs(residual.value) + residual.error) / (slope.value - slope.error) * Real(1.125) + resolution * y)};
+    if (done) {
+      const Real least = slope.value - slope.error;
+      const Real error = (abs(residual.value) + residual.error) / least * Real(1.125) + resolution * y;
+      return {y, least > 0 ? error : std::numeric_limits<Real>::infinity()};
+    }
     (residual.value < 0 ? below : above) = y;
     Real next = y * exp(Real(-log(Real(level.value / target.value)) * level.value / (y * slope.value)));
     if (!(next > below && next < above)) {

@@ -37,6 +37,7 @@ TEST(Registry, RotationsAreFoundByName) {
 TEST(Registry, ThreadsThatAskAtOnceGetOneFamily) {
   std::array<const FamilyInfo*, 4> found{};
   std::vector<std::thread> threads;
+  threads.reserve(found.size());
   for (const FamilyInfo*& family : found) threads.emplace_back([&family] { family = &families::find("joe@90"); });
   for (std::thread& thread : threads) thread.join();
   for (const FamilyInfo* family : found) EXPECT_EQ(family, &families::find("joe@90"));

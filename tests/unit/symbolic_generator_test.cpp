@@ -251,6 +251,7 @@ TEST(SymbolicGenerator, IsSharedByThreads) {
   const double expected = copula.log_pdf(u.topRows(1))(0);
   std::array<Column, 4> results;
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (Column& result : results) threads.emplace_back([&] { result = copula.log_pdf(u); });
   for (std::thread& thread : threads) thread.join();
   for (const Column& result : results) EXPECT_TRUE((result == expected).all());
@@ -262,6 +263,7 @@ TEST(SymbolicGenerator, KendallTauIsRightOnManyThreads) {
   const SymbolicGenerator generator(formula("(exp(-t)+exp(-theta*t))/2"), 2, {kTheta, kDelta}, "F");
   std::array<double, 4> results{};
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (double& result : results) threads.emplace_back([&] { result = kendall_tau(generator); });
   for (std::thread& thread : threads) thread.join();
   const double expected = 0.5 - 2 * kTheta / ((1 + kTheta) * (1 + kTheta));
