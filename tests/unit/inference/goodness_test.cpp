@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 
 #include "copula/inference/dependence.hpp"
 #include "families/registry.hpp"
@@ -101,6 +103,38 @@ TEST_P(GoodnessTest, RejectsAnotherFamily) {
     EXPECT_EQ(wrong.p_value, 0.01) << dim;
     EXPECT_NEAR(wrong.p_error, std::sqrt(0.01 * 0.99 / 99), 1e-15);
     EXPECT_GT(test_goodness(family("clayton"), x, quick(GetParam(), 99, 1)).p_value, 0.05) << dim;
+  }
+}
+
+/// 10, or $SKLAR_SAMPLES: docs/statistics.md.
+int samples() {
+  const char* given = std::getenv("SKLAR_SAMPLES");
+  return given != nullptr ? std::atoi(given) : 10;
+}
+
+// Of samples of 150 rows, tau 0.5, the share that a test at 0.05 rejects. Prints it.
+TEST_P(GoodnessTest, KeepsItsLevelAndRejectsOtherTails) {
+  constexpr int kReplicates = 99;
+  constexpr double kLevel = 0.05, kStandardErrors = 4;
+  const int n = samples();
+  for (const std::string drawn : {"clayton", "gumbel", "frank"}) {
+    for (const std::string tested : {"clayton", "gumbel", "frank"}) {
+      int rejected = 0;
+      for (int sample = 0; sample < n; ++sample) {
+        const std::uint64_t seed = test::seed_of_this_test() + static_cast<std::uint64_t>(sample);
+        const Points x = simulated(drawn, 2, 0.5, 150, seed);
+        const double p = test_goodness(family(tested), x, quick(GetParam(), kReplicates, seed)).p_value;
+        rejected += p <= kLevel ? 1 : 0;
+      }
+      const double share = static_cast<double>(rejected) / n;
+      std::cout << drawn << " tested as " << tested << ": " << 100 * share << " % of " << n << " rejected\n";
+      const double chance = kStandardErrors * std::sqrt(kLevel * (1 - kLevel) / n);
+      if (drawn == tested) {
+        EXPECT_LE(share, kLevel + chance) << drawn;
+      } else if (drawn != "frank" && tested != "frank") {
+        EXPECT_GT(share, 0.8) << drawn << tested;
+      }
+    }
   }
 }
 
