@@ -46,17 +46,29 @@ void require_replicates(std::size_t replicates, double confidence) {
 /// Fits a sample of the copula, behind its margins if there are any.
 using Refit = std::function<JointFit(const Points& u)>;
 
+/// The estimates of one sample.
+struct Replicate {
+  FitResult copula;
+  std::vector<std::vector<double>> margins;
+};
+
+Replicate estimates_of(JointFit fit) {
+  Replicate replicate{std::move(fit.copula), {}};
+  for (MarginFit& margin : fit.margins) replicate.margins.push_back(std::move(margin.parameters));
+  return replicate;
+}
+
 /// Fitted replicates, and the intervals that are percentiles of them.
 ConfidenceIntervals by_bootstrap(const FamilyInfo& family, const JointFit& fit, Index rows, int dim, const Refit& refit,
                                  const IntervalOptions& options) {
   const FitResult& result = fit.copula;
   require_replicates(static_cast<std::size_t>(std::max(options.bootstrap.replicates, 0)), options.confidence);
   if (result.status == FitStatus::failed) return no_intervals(result, result.message);
-  std::vector<JointFit> fits(static_cast<std::size_t>(options.bootstrap.replicates));
+  std::vector<Replicate> fits(static_cast<std::size_t>(options.bootstrap.replicates));
   for_each_replicate(*family.make(dim, result.theta), rows, options.bootstrap, [&](int replicate, const Points& drawn) {
-    fits[static_cast<std::size_t>(replicate)] = refit(drawn);
+    fits[static_cast<std::size_t>(replicate)] = estimates_of(refit(drawn));
   });
-  std::erase_if(fits, [](const JointFit& one) { return one.copula.status == FitStatus::failed; });
+  std::erase_if(fits, [](const Replicate& one) { return one.copula.status == FitStatus::failed; });
   require_replicates(fits.size(), options.confidence);
   const auto over = [&fits](const auto& value) {
     std::vector<double> values(fits.size());
@@ -66,15 +78,15 @@ ConfidenceIntervals by_bootstrap(const FamilyInfo& family, const JointFit& fit, 
   ConfidenceIntervals intervals = no_intervals(result, "");
   intervals.failed = options.bootstrap.replicates - static_cast<int>(fits.size());
   for (std::size_t a = 0; a < result.theta.size(); ++a) {
-    const std::vector<double> values = over([a](const JointFit& one) { return one.copula.theta[a]; });
+    const std::vector<double> values = over([a](const Replicate& one) { return one.copula.theta[a]; });
     intervals.theta[a] = percentiles(values, options.confidence);
     intervals.standard_error[a] = standard_deviation(values);
   }
-  intervals.tau = percentiles(over([](const JointFit& one) { return one.copula.tau; }), options.confidence);
+  intervals.tau = percentiles(over([](const Replicate& one) { return one.copula.tau; }), options.confidence);
   for (std::size_t i = 0; i < fit.margins.size(); ++i) {
     MarginIntervals& margin = intervals.margins.emplace_back();
     for (std::size_t a = 0; a < fit.margins[i].parameters.size(); ++a) {
-      const std::vector<double> values = over([i, a](const JointFit& one) { return one.margins[i].parameters[a]; });
+      const std::vector<double> values = over([i, a](const Replicate& one) { return one.margins[i][a]; });
       margin.parameters.push_back(percentiles(values, options.confidence));
       margin.standard_error.push_back(standard_deviation(values));
     }

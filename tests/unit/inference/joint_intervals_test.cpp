@@ -64,50 +64,53 @@ void expect_reference(const JointFit& fit, const ConfidenceIntervals& found, con
   EXPECT_EQ(next, expected.margin_errors.end());
 }
 
+struct Case {
+  std::string what;
+  std::vector<MarginSpec> specs;
+  Column weights;
+  Reference expected;
+};
+
 // By a program of its own in decimal arithmetic of 60 digits: the estimates by Newton's method, the stacked inference
 // functions of the five parameters and their derivatives by differences of 1e-13, D^-1 M D^-T; with ranks the sums of
 // Genest, Ghoudi and Rivest over all pairs of rows.
+std::vector<Case> cases_in_two_steps() {
+  return {{"normal",
+           {kNormal, kNormal},
+           Column(),
+           {{0.36836123574556538834, 0.2082548482127422522, 0.470584742634097732389, 0.229466677258382571924},
+            4.77090589136084500083,
+            2.52027505713401199115,
+            {1.45192121500763634883, 12.582555019754004549}}},
+          {"normal, weights",
+           {kNormal, kNormal},
+           counts_of_ten(),
+           {{0.280919126361227948974, 0.15642579090218061479, 0.36459617437703644996, 0.16936181800388237586},
+            4.46670340936497526178,
+            1.82618286426167394933,
+            {1.84038279720981531298, 9.52141499917522923783}}},
+          {"normal and ranks",
+           {kNormal, kRanks},
+           Column(),
+           {{0.36836123574556538834, 0.2082548482127422522},
+            3.87851924657852607227,
+            1.85330841919907470937,
+            {1.31698764249536557409, 9.27193654498945572216}}},
+          {"normal and ranks, weights",
+           {kNormal, kRanks},
+           counts_of_ten(),
+           {{0.280919126361227948974, 0.15642579090218061479},
+            5.25844775297680031911,
+            2.02766749221646774274,
+            {2.31655187365529752888, 10.8099067250745691365}}},
+          {"ranks, weights",
+           {kRanks, kRanks},
+           counts_of_ten(),
+           {{}, 7.50576939755256313321, 4.22980516248396127056, {2.20938989645825793281, 21.5426375038389384658}}}};
+}
+
 TEST(JointIntervals, InTwoStepsAreThoseOfSixtyDigits) {
-  struct Case {
-    std::string what;
-    std::vector<MarginSpec> specs;
-    Column weights;
-    Reference expected;
-  };
-  const std::vector<Case> cases = {
-      {"normal",
-       {kNormal, kNormal},
-       Column(),
-       {{0.36836123574556538834, 0.2082548482127422522, 0.470584742634097732389, 0.229466677258382571924},
-        4.77090589136084500083,
-        2.52027505713401199115,
-        {1.45192121500763634883, 12.582555019754004549}}},
-      {"normal, weights",
-       {kNormal, kNormal},
-       counts_of_ten(),
-       {{0.280919126361227948974, 0.15642579090218061479, 0.36459617437703644996, 0.16936181800388237586},
-        4.46670340936497526178,
-        1.82618286426167394933,
-        {1.84038279720981531298, 9.52141499917522923783}}},
-      {"normal and ranks",
-       {kNormal, kRanks},
-       Column(),
-       {{0.36836123574556538834, 0.2082548482127422522},
-        3.87851924657852607227,
-        1.85330841919907470937,
-        {1.31698764249536557409, 9.27193654498945572216}}},
-      {"normal and ranks, weights",
-       {kNormal, kRanks},
-       counts_of_ten(),
-       {{0.280919126361227948974, 0.15642579090218061479},
-        5.25844775297680031911,
-        2.02766749221646774274,
-        {2.31655187365529752888, 10.8099067250745691365}}},
-      {"ranks, weights",
-       {kRanks, kRanks},
-       counts_of_ten(),
-       {{}, 7.50576939755256313321, 4.22980516248396127056, {2.20938989645825793281, 21.5426375038389384658}}}};
-  for (const Case& one : cases) {
+  for (const Case& one : cases_in_two_steps()) {
     const JointFit fit = two_steps(clayton(), one.specs, ten_rows(), one.weights);
     const auto found = joint_intervals(clayton(), fit, ten_rows(), one.weights);
     expect_reference(fit, found, one.expected, kDifferences, one.what);
