@@ -56,7 +56,7 @@ double kendall_tau(const SymbolicGenerator& generator) {
   boost::math::quadrature::tanh_sinh<double> quadrature;
   bool known = true;
   const auto integrand = [&](double u) {
-    const double value = minus_t_slope(generator, u);
+    const double value = known ? minus_t_slope(generator, u) : 0;  // one that is not resolved settles it
     known = known && !std::isnan(value);
     return std::isnan(value) ? 0.0 : value;
   };
