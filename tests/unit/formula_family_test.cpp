@@ -293,8 +293,10 @@ void expect_sampler(const Copula& copula, const std::string& what) {
   constexpr int kEdges = 7;
   const std::array<double, kEdges> edges{0, 0.02, 0.2, 0.5, 0.8, 0.98, 1};
   const int dim = copula.dim();
-  const auto cells = static_cast<std::size_t>(std::pow(kEdges - 1, dim) + 0.5);
-  const auto digit = [](std::size_t cell, int k) { return cell / static_cast<std::size_t>(std::pow(6, k) + 0.5) % 6; };
+  const auto cells = static_cast<std::size_t>(std::lround(std::pow(kEdges - 1, dim)));
+  const auto digit = [](std::size_t cell, int k) {
+    return cell / static_cast<std::size_t>(std::lround(std::pow(6, k))) % 6;
+  };
   std::vector<double> expected(cells), observed(cells);
   for (std::size_t cell = 0; cell < cells; ++cell) {
     Points corners(1 << dim, dim);
