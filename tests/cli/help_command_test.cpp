@@ -165,9 +165,10 @@ TEST_F(HelpCommand, ManualHasEveryCommandAndOption) {
   EXPECT_LT(fit.find("\n.TP\n\\fB\\-\\-method {ls,ml,rho,tau}=ml\\fR\nmaximum likelihood"), fit.find("\n.SS ", 1))
       << page;
   EXPECT_NE(page.find("\n\\fBsklar copula fit [OPTIONS] FILE\\fR\n"), std::string::npos) << page;
-  const std::size_t json = page.find("\\-\\-json");
+  const std::string entry = "\n\\fB\\-\\-json\\fR\n";
+  const std::size_t json = page.find(entry);
   EXPECT_NE(json, std::string::npos);
-  EXPECT_EQ(page.find("\\-\\-json", json + 1), std::string::npos) << "once, for every command";
+  EXPECT_EQ(page.find(entry, json + 1), std::string::npos) << "once, for every command";
   EXPECT_NE(page.find(".SH EXIT STATUS\n"), std::string::npos);
 }
 
