@@ -1,4 +1,3 @@
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
@@ -68,7 +67,7 @@ std::vector<Light> lights() {
 
 using Normals = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// 7208 normals, a multiple of 8 as the vector kernel wants it.
+/// 7208 normals, whole blocks and 40 more: multiples of 8, as the vector kernel wants them.
 Normals disk_normals() {
   std::vector<double> coordinates;
   for (int i = 0; i < kSize; ++i) {
@@ -159,11 +158,12 @@ std::vector<SpherePixels> sphere_pixels(std::span<const CellValues* const> table
   const std::vector<Light> all = lights();
   const Normals normals = disk_normals();
   std::vector<SpherePixels> pixels(tables.size(), SpherePixels::Zero(normals.rows(), 3));
-  const auto work = [&](const tbb::blocked_range<Eigen::Index>& range) {
-    const Normals block = normals.middleRows(range.begin(), range.end() - range.begin());
-    for (const Light& light : all) add(light, block, cells, range.begin(), pixels);
-  };
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, normals.rows(), kPixelBlock), work, tbb::simple_partitioner());
+  const Eigen::Index blocks = (normals.rows() + kPixelBlock - 1) / kPixelBlock;
+  tbb::parallel_for(Eigen::Index{0}, blocks, [&](Eigen::Index n) {
+    const Eigen::Index first = n * kPixelBlock;
+    const Normals block = normals.middleRows(first, std::min(kPixelBlock, normals.rows() - first));
+    for (const Light& light : all) add(light, block, cells, first, pixels);
+  });
   return pixels;
 }
 
