@@ -1,18 +1,17 @@
 #pragma once
 /// Inside of an expression, for the sources of copula/symbolic only: the exact number type and the canonical order.
 
-#include <boost/multiprecision/gmp.hpp>
-#include <boost/multiprecision/rational_adaptor.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
 
 #include "copula/symbolic/expression.hpp"
 
 namespace sklar::symbolic {
 
-/// Exact numbers of any size. Of GMP: the greatest common divisors of Boost's own integers would take nine tenths of
-/// the time in which a formula with long numbers is read.
-using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
-using Rational = boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::gmp_int>,
-                                               boost::multiprecision::et_off>;
+/// Exact numbers of any size.
+using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
+                                  boost::multiprecision::et_off>;
 
 struct Node {
   Kind kind;

@@ -67,7 +67,7 @@ constexpr std::array<FuzzTarget, 5> kTargets{{{"csv", csv, 20000},
                                               {"csv_sample", csv_sample, 20000},
                                               {"copula_model", copula_model, 1000},
                                               {"family", family, 5000},
-                                              {"formula", formula, 5000}}};
+                                              {"formula", formula, 1000}}};
 
 }  // namespace
 
