@@ -17,6 +17,12 @@ function(sklar_precompile target)
                                               <vector> <Eigen/Geometry> ${ARGN})
 endfunction()
 
+# sklar_source_options("OPTION;.." sources...): options of single sources. They go without the precompiled headers, for with
+# these GCC compiles as the headers were compiled: -ffp-contract=off, for one, is lost without a word.
+function(sklar_source_options options)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}" SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 function(sklar_library name)
   add_library(sklar_${name} ${ARGN})
   add_library(sklar::${name} ALIAS sklar_${name})
