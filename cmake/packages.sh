@@ -4,7 +4,7 @@ build_packages="cmake ninja-build g++ pkg-config libeigen3-dev libboost-dev libm
   libpng-dev libcairo2-dev libtbb-dev libembree-dev nlohmann-json3-dev libjs-chart.js libcli11-dev libgtest-dev
   glslang-tools"
 ci_packages="$build_packages chromium git clang clang-format clang-tidy doxygen dpkg-dev file mandoc libopenmpi-dev
-  openmpi-bin"
+  openmpi-bin zsh fish"
 
 # need_packages NAME...: installs those that are missing, as root or through sudo; where that cannot be, says what is
 # missing and ends the script with status 1.
