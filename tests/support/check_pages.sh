@@ -4,13 +4,14 @@
 #   ```sh          commands, run in the order of the page in a folder of its own, where examples/ and build/ are those of
 #                  the repository and `sklar` is found
 #   ```text        what the commands before it print: the same words and whole numbers, other numbers to the last place
-#                  shown and a relative 1e-9; with ```text 2% all numbers to 2 %
+#                  shown and a relative 1e-7 (an estimate found by values of the likelihood is known to 1e-8, and its
+#                  last places differ between processors); with ```text 2% all numbers to 2 %
 #   <!-- file: PATH -->   the next block is that file
 #   <!-- from: PATH -->   the next block is lines of that file, without regard to how far they are indented
 #
-# Blocks of C++ and JSON have one of the two; links lead to files that there are. Commands that take minutes or a file that is not in the repository stand
-# in indented blocks, which are not run; that their options exist is checked. --write puts files and output that differ
-# into the pages.
+# Blocks of C++ and JSON have one of the two; links lead to files that there are. Commands that take minutes or a file
+# that is not in the repository stand in indented blocks, which are not run; that their options exist is checked. --write
+# puts files and output that differ into the pages.
 set -eu
 cd "$(dirname "$0")/../.."
 root=$(pwd)

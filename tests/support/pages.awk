@@ -33,7 +33,7 @@ function magnitude(x) { return x < 0 ? -x : x }
 
 function near(a, b, share, allowed) {
   if (a == b) return 1
-  allowed = (share > 0 ? share : 1e-9) * (magnitude(a) > magnitude(b) ? magnitude(a) : magnitude(b))
+  allowed = (share > 0 ? share : 1e-7) * (magnitude(a) > magnitude(b) ? magnitude(a) : magnitude(b))
   if (a !~ /[.e]/ && b !~ /[.e]/ && !share) return 0
   if (last_place(a) > allowed) allowed = last_place(a)
   return magnitude(a - b) <= allowed
