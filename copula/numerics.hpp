@@ -266,14 +266,6 @@ class PerPrecision {
   PerWorkingPrecision<std::optional<Constants<Widest>>> wide_;
 };
 
-/// Eulerian numbers A(n,k) / n!, the coefficients of A_n(x) / n! (DLMF 26.14.8): positive, sum 1.
-struct EulerianRule {
-  template <class T>
-  [[nodiscard]] T entry(int n, int k, const T& same, const T& left) const {
-    return (T(k + 1) * same + T(n - k) * left) / T(n);
-  }
-};
-
 /// Partial sums: entry n is the sum of term(k) for 0 < k < n, entries 0..count. @param term T -> T for any T.
 template <class T, class Term>
 [[nodiscard]] std::vector<T> cumulative(int count, const Term& term) {

@@ -18,6 +18,14 @@ using test::Digits;
 constexpr double kRelative = 4e-15;  // a handful of roundings, none amplified
 constexpr int kDigits = 700;         // 1 - e^-x for x = 1e-300, and room
 
+/// Eulerian numbers A(n,k) / n!, the coefficients of A_n(x) / n! (DLMF 26.14.8): positive, sum 1.
+struct EulerianRule {
+  template <class T>
+  [[nodiscard]] T entry(int n, int k, const T& same, const T& left) const {
+    return (T(k + 1) * same + T(n - k) * left) / T(n);
+  }
+};
+
 /// Agreement in Narrow relative to `scale`, and that the bound it carries is small and true.
 void expect_within(const Digits& scale, const Narrow& value, const Digits& expected, const char* what, double x) {
   const Digits error = abs(value.value - expected);
