@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "copula/listed.hpp"
+
 namespace sklar {
 
 /// The entry of the list whose member `name` is that given. @param kind, kinds what an entry is called, and several.
@@ -13,12 +15,11 @@ namespace sklar {
 template <class Named>
 [[nodiscard]] const Named& find_named(std::string_view name, std::span<const Named> list, const std::string& kind,
                                       const std::string& kinds) {
-  std::string known;
   for (const Named& entry : list) {
     if (entry.name == name) return entry;
-    known += (known.empty() ? "" : ", ") + entry.name;
   }
-  throw std::invalid_argument("unknown " + kind + " '" + std::string(name) + "'; known " + kinds + ": " + known);
+  throw std::invalid_argument("unknown " + kind + " '" + std::string(name) + "'; known " + kinds + ": " +
+                              listed(list, &Named::name));
 }
 
 }  // namespace sklar

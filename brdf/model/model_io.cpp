@@ -8,6 +8,7 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
+#include "copula/listed.hpp"
 
 namespace sklar::brdf {
 
@@ -41,12 +42,11 @@ PaperSlice slice_from(const Json& json) {
 template <class Value>
 Value choice(const Json& json, const char* name, std::initializer_list<Value> values) {
   const std::string text = json::text(json, name);
-  std::string known;
   for (const Value value : values) {
     if (to_text(value) == text) return value;
-    known += (known.empty() ? "" : ", ") + std::string(to_text(value));
   }
-  throw std::invalid_argument("field '" + std::string(name) + "' must be one of " + known + ", found '" + text + "'");
+  throw std::invalid_argument("field '" + std::string(name) + "' must be one of " +
+                              listed(values, [](Value value) { return to_text(value); }) + ", found '" + text + "'");
 }
 
 FamilyInfo family_from(const Json& family) {

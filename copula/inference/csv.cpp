@@ -8,6 +8,7 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
+#include "copula/listed.hpp"
 
 namespace sklar {
 namespace {
@@ -129,11 +130,7 @@ class CsvParser {
 
   [[nodiscard]] std::size_t position_of(const std::string& name) const {
     const auto found = std::find(fields_.begin(), fields_.end(), name);
-    if (found == fields_.end()) {
-      std::string names;
-      for (const std::string& field : fields_) names += (names.empty() ? "" : ", ") + field;
-      fail("no column '" + name + "'; columns: " + names);
-    }
+    if (found == fields_.end()) fail("no column '" + name + "'; columns: " + listed(fields_));
     if (std::find(found + 1, fields_.end(), name) != fields_.end()) fail("two columns are named '" + name + "'");
     return static_cast<std::size_t>(found - fields_.begin());
   }

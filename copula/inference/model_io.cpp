@@ -5,6 +5,7 @@
 #include "copula/error.hpp"
 #include "copula/file.hpp"
 #include "copula/json_fields.hpp"
+#include "copula/listed.hpp"
 #include "copula/mixture.hpp"
 #include "copula/rotated_family.hpp"
 #include "copula/symbolic/formula_family.hpp"
@@ -221,9 +222,7 @@ int version_of(const CopulaModel& model) {
 
 std::string title_of(const CopulaModel& model) {
   if (model.components.size() == 1) return model.components.front().family + " with its parameters";
-  std::string names;
-  for (const ModelComponent& component : model.components) names += (names.empty() ? "" : ", ") + component.family;
-  return "Mixture of " + names;
+  return "Mixture of " + listed(model.components, &ModelComponent::family);
 }
 
 FamilyInfo family_of_model(ReadModel&& read, std::string_view source) {

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "copula/json_fields.hpp"
+#include "copula/listed.hpp"
 
 namespace sklar::symbolic {
 
@@ -15,11 +16,9 @@ constexpr std::string_view kFormat = "sklar family";
 
 void require_known_fields(const Json& object, const std::vector<std::string>& known) {
   if (!object.is_object()) throw std::invalid_argument("must be an object");
-  std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   for (const auto& entry : object.items()) {
     if (std::find(known.begin(), known.end(), entry.key()) != known.end()) continue;
-    throw std::invalid_argument("unknown field '" + entry.key() + "'; allowed are " + list);
+    throw std::invalid_argument("unknown field '" + entry.key() + "'; allowed are " + listed(known));
   }
 }
 

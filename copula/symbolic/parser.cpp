@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "copula/listed.hpp"
 #include "copula/symbolic/node.hpp"
 
 namespace sklar::symbolic {
@@ -65,13 +66,6 @@ const std::map<std::string, Callable, std::less<>>& callables() {
       {"polygamma", {2, make_function<Function::polygamma>}},
       {"lambertw", {1, make_function<Function::lambertw>}}};
   return table;
-}
-
-template <class Names>
-std::string join(const Names& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 class Parser {
@@ -202,14 +196,13 @@ class Parser {
     const auto callable = callables().find(name);
     if (callable != callables().end()) return parse_call(place, name, callable->second);
     if (peek() == '(') {
-      std::vector<std::string> known;
-      for (const auto& entry : callables()) known.push_back(entry.first);
-      fail(place, "unknown function '" + name + "'; known are " + join(known));
+      const auto name_of = [](const auto& entry) { return entry.first; };
+      fail(place, "unknown function '" + name + "'; known are " + listed(callables(), name_of));
     }
     if (name == "pi") return 4 * apply(Function::atan, {1});
     if (allowed_ && std::find(allowed_->begin(), allowed_->end(), name) == allowed_->end()) {
       fail(place, "unknown symbol '" + name + "'; " +
-                      (allowed_->empty() ? "no symbol is allowed" : "allowed are " + join(*allowed_)));
+                      (allowed_->empty() ? "no symbol is allowed" : "allowed are " + listed(*allowed_)));
     }
     return symbol(name);
   }

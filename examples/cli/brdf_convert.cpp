@@ -17,6 +17,7 @@
 #include "brdf/study/energy.hpp"
 #include "copula/error.hpp"
 #include "copula/file.hpp"
+#include "copula/listed.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/material.hpp"
 #include "examples/cli/text.hpp"
@@ -119,12 +120,10 @@ const std::vector<Format> kFormats = {{".json", {}, write_model},
 
 const Format& format_of(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
-  std::string known;
   for (const Format& format : kFormats) {
     if (format.extension == extension) return format;
-    known += (known.empty() ? "" : ", ") + format.extension;
   }
-  throw FileError(out, "has extension '" + extension + "', expected one of " + known);
+  throw FileError(out, "has extension '" + extension + "', expected one of " + listed(kFormats, &Format::extension));
 }
 
 void run(const CLI::App& command, const Options& options, bool json) {

@@ -1,11 +1,13 @@
 #include "examples/cli/copula_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "copula/error.hpp"
 #include "copula/inference/csv.hpp"
+#include "copula/listed.hpp"
 #include "examples/cli/text.hpp"
 
 namespace sklar::cli {
@@ -39,13 +41,13 @@ Column take_weights(Table& table, const std::string& name, const std::string& pa
   return weights;
 }
 
+constexpr std::array kMarginKinds = {MarginKind::empirical, MarginKind::kernel, MarginKind::normal, MarginKind::gamma,
+                                     MarginKind::beta};
+
 /// One item of --margins, or what is wrong with it.
 std::string parse_margin(const std::string& item, MarginSpec& spec) {
   const std::string name = item.substr(0, item.find(':'));
-  std::string names;
-  for (const MarginKind kind :
-       {MarginKind::empirical, MarginKind::kernel, MarginKind::normal, MarginKind::gamma, MarginKind::beta}) {
-    names += (names.empty() ? "" : ", ") + std::string(to_text(kind));
+  for (const MarginKind kind : kMarginKinds) {
     if (name != to_text(kind)) continue;
     spec = {.kind = kind};
     if (name == item) return {};
@@ -59,7 +61,8 @@ std::string parse_margin(const std::string& item, MarginSpec& spec) {
     spec.highest = *highest;
     return {};
   }
-  return "unknown margin '" + name + "'; margins: " + names + ", none";
+  return "unknown margin '" + name +
+         "'; margins: " + listed(kMarginKinds, [](MarginKind kind) { return to_text(kind); }) + ", none";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "copula/inference/csv.hpp"
 #include "copula/inference/model_io.hpp"
 #include "copula/inference/predict.hpp"
+#include "copula/listed.hpp"
 #include "examples/cli/command.hpp"
 #include "examples/cli/text.hpp"
 #include "families/registry.hpp"
@@ -27,12 +28,6 @@ std::shared_ptr<const JointDistribution> joint_of(CopulaModel model) {
     model.margins.assign(static_cast<std::size_t>(model.dim), HistogramMarginal({0, 1}, {1}));
   }
   return std::make_shared<const JointDistribution>(make_joint(model, families::all()));
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all.append(all.empty() ? "" : ", ").append(name);
-  return all;
 }
 
 /// The names that the model holds, or for a model without them those of --columns or x1, x2, ..

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "copula/listed.hpp"
 #include "copula/symbolic/derivative.hpp"
 #include "copula/symbolic/derive.hpp"
 #include "copula/symbolic/parser.hpp"
@@ -21,9 +22,7 @@ std::string rounded(double value) {
 }
 
 std::string rounded(const Theta& theta) {
-  std::string text;
-  for (const double value : theta) text += (text.empty() ? "" : ", ") + rounded(value);
-  return text;
+  return listed(theta, [](double value) { return rounded(value); });
 }
 
 std::string formula(const std::string& latex) {
